@@ -1,0 +1,2 @@
+// The precision of all floating-point numbers.
+alias real = f32;

@@ -1,0 +1,77 @@
+// Vectors and tensors on a line: all are numbers. Twin: Line in src/tensor.rs
+#import real
+
+alias Vec = real;
+alias Mat = real;
+alias Sym = real;
+alias Mask = bool;
+const DIMENSION: u32 = 1u;
+
+fn vec_of(x: real, y: real, z: real) -> Vec {
+    return x;
+}
+fn vec_to(v: Vec) -> vec3<real> {
+    return vec3<real>(v, 0.0, 0.0);
+}
+// Bit k of the mask: axis k.
+fn mask_of(bits: u32) -> Mask {
+    return (bits & 1u) != 0u;
+}
+// The same number, of which the compiler knows nothing if `zero` is a zero that it does not know.
+fn hidden(v: Vec, zero: u32) -> Vec {
+    return bitcast<real>(bitcast<u32>(v) ^ zero);
+}
+fn inner(a: Vec, b: Vec) -> real {
+    return a * b;
+}
+fn outer(a: Vec, b: Vec) -> Mat {
+    return a * b;
+}
+fn mat_vec(m: Mat, v: Vec) -> Vec {
+    return m * v;
+}
+fn mat_mat(a: Mat, b: Mat) -> Mat {
+    return a * b;
+}
+fn transpose_mat(m: Mat) -> Mat {
+    return m;
+}
+fn sym_vec(s: Sym, v: Vec) -> Vec {
+    return s * v;
+}
+fn sym_add(a: Sym, b: Sym) -> Sym {
+    return a + b;
+}
+fn sym_sub(a: Sym, b: Sym) -> Sym {
+    return a - b;
+}
+fn sym_scale(s: Sym, scale: real) -> Sym {
+    return s * scale;
+}
+fn mat_of_sym(s: Sym) -> Mat {
+    return s;
+}
+fn sym_part(m: Mat) -> Sym {
+    return m;
+}
+fn skew_part(m: Mat) -> Mat {
+    return 0.0;
+}
+fn trace(m: Mat) -> real {
+    return m;
+}
+fn sym_trace(s: Sym) -> real {
+    return s;
+}
+fn diagonal(value: real) -> Sym {
+    return value;
+}
+fn mat_identity() -> Mat {
+    return 1.0;
+}
+fn determinant_mat(m: Mat) -> real {
+    return m;
+}
+fn adjugate(m: Mat) -> Mat {
+    return 1.0;
+}

@@ -1,0 +1,88 @@
+// Vectors and tensors in the plane. Twin: Plane in src/tensor.rs
+#import real
+
+alias Vec = vec2<real>;
+alias Mat = mat2x2<real>;
+alias Mask = vec2<bool>;
+const DIMENSION: u32 = 2u;
+
+struct Sym {
+    xx: real,
+    yy: real,
+    xy: real,
+}
+
+fn vec_of(x: real, y: real, z: real) -> Vec {
+    return Vec(x, y);
+}
+fn vec_to(v: Vec) -> vec3<real> {
+    return vec3<real>(v, 0.0);
+}
+// Bit k of the mask: axis k.
+fn mask_of(bits: u32) -> Mask {
+    return (vec2<u32>(bits) & vec2<u32>(1u, 2u)) != vec2<u32>(0u);
+}
+// The same numbers, of which the compiler knows nothing if `zero` is a zero that it does not know.
+fn hidden(v: Vec, zero: u32) -> Vec {
+    return bitcast<Vec>(bitcast<vec2<u32>>(v) ^ vec2<u32>(zero));
+}
+fn inner(a: Vec, b: Vec) -> real {
+    return dot(a, b);
+}
+// a (x) b: component (i, j) is a_i b_j.
+fn outer(a: Vec, b: Vec) -> Mat {
+    return Mat(a * b.x, a * b.y);
+}
+fn mat_vec(m: Mat, v: Vec) -> Vec {
+    return m * v;
+}
+fn mat_mat(a: Mat, b: Mat) -> Mat {
+    return a * b;
+}
+fn transpose_mat(m: Mat) -> Mat {
+    return transpose(m);
+}
+fn sym_vec(s: Sym, v: Vec) -> Vec {
+    return Vec(s.xx * v.x + s.xy * v.y, s.xy * v.x + s.yy * v.y);
+}
+fn sym_add(a: Sym, b: Sym) -> Sym {
+    return Sym(a.xx + b.xx, a.yy + b.yy, a.xy + b.xy);
+}
+fn sym_sub(a: Sym, b: Sym) -> Sym {
+    return Sym(a.xx - b.xx, a.yy - b.yy, a.xy - b.xy);
+}
+fn sym_scale(s: Sym, scale: real) -> Sym {
+    return Sym(s.xx * scale, s.yy * scale, s.xy * scale);
+}
+fn mat_of_sym(s: Sym) -> Mat {
+    return Mat(Vec(s.xx, s.xy), Vec(s.xy, s.yy));
+}
+// (M + M^T)/2
+fn sym_part(m: Mat) -> Sym {
+    return Sym(m[0].x, m[1].y, 0.5 * (m[1].x + m[0].y));
+}
+// (M - M^T)/2
+fn skew_part(m: Mat) -> Mat {
+    return (m - transpose(m)) * 0.5;
+}
+fn trace(m: Mat) -> real {
+    return m[0].x + m[1].y;
+}
+// Sum of the diagonal components that are stored: xx + yy.
+fn sym_trace(s: Sym) -> real {
+    return s.xx + s.yy;
+}
+// The unit tensor times a number.
+fn diagonal(value: real) -> Sym {
+    return Sym(value, value, 0.0);
+}
+fn mat_identity() -> Mat {
+    return Mat(Vec(1.0, 0.0), Vec(0.0, 1.0));
+}
+fn determinant_mat(m: Mat) -> real {
+    return m[0].x * m[1].y - m[1].x * m[0].y;
+}
+// Transposed matrix of cofactors: the inverse times the determinant.
+fn adjugate(m: Mat) -> Mat {
+    return Mat(Vec(m[1].y, -m[0].y), Vec(-m[1].x, m[0].x));
+}

@@ -1,0 +1,21 @@
+// Cell of each particle and number of particles of each cell. Twin: src/pass/bin_cells.rs
+#import invocation
+#import cell
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> cell: array<u32>;
+@group(0) @binding(_) var<storage, read_write> cell_count: array<atomic<u32>>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let i = index_of(invocation);
+    if i >= params.count || clock.running == 0u || clock.rebuild == 0u {
+        return;
+    }
+    let place = cell_of(reference_position[i] + displacement[i]);
+    let index = (place.z * params.cells_y + place.y) * params.cells_x + place.x;
+    cell[i] = index;
+    atomicAdd(&cell_count[index], 1u);
+}

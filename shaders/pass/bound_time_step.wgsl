@@ -1,0 +1,123 @@
+// Ends a step: advances the clock, finds the next step, whether the neighbour list still holds, and faults.
+// Twin: src/pass/bound_time_step.rs
+//
+// step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
+#import invocation
+#import body
+
+@group(0) @binding(_) var<storage, read_write> clock: Clock;
+@group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> listed_displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> velocity: array<Vec>;
+@group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+@group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
+@group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
+
+const REDUCTION_BLOCK: u32 = 256u;
+
+var<workgroup> shared_bound: array<vec4<real>, 256>;
+
+// Largest of each component over the workgroup; good in its first invocation.
+fn largest(local: u32, own: vec4<real>) -> vec4<real> {
+    shared_bound[local] = own;
+    workgroupBarrier();
+    for (var half = REDUCTION_BLOCK / 2u; half > 0u; half /= 2u) {
+        if local < half {
+            shared_bound[local] = max(shared_bound[local], shared_bound[local + half]);
+        }
+        workgroupBarrier();
+    }
+    return shared_bound[0];
+}
+
+@compute @workgroup_size(256)
+fn blocks(invocation: Invocation) {
+    let block = block_of(invocation);
+    let a = block * REDUCTION_BLOCK + invocation.local;
+    var own = vec4<real>();
+    if a < params.count && clock.running != 0u {
+        own = bound_of(a);
+    }
+    let bound = largest(invocation.local, own);
+    if invocation.local == 0u && a < params.count && clock.running != 0u {
+        block_bound[block] = bound;
+    }
+}
+
+// Rate, squared displacement since the list was built, squared speed, fault of one particle.
+fn bound_of(a: u32) -> vec4<real> {
+    let own = body_of(a);
+    let h = own.smoothing_length;
+    let compression = abs(trace(velocity_gradient[a]));
+    let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
+    let pull = inner(acceleration[a], acceleration[a]);
+    let rate = max(signal / h, sqrt(sqrt(pull) / h));
+    let shift = displacement[a] - listed_displacement[a];
+    let moved = inner(shift, shift);
+    let speed = inner(velocity[a], velocity[a]);
+    // By the bits: a compiler may take it that no number is infinite or undefined.
+    let exponent = bitcast<u32>(pull + moved + speed + compression) & 0x7f800000u;
+    if exponent == 0x7f800000u {
+        return vec4<real>(0.0, 0.0, 0.0, real(NOT_FINITE));
+    }
+    let inverted = 1.0 + volumetric_strain[a] <= 0.0;
+    return vec4<real>(rate, moved, speed, select(0.0, real(INVERTED), inverted));
+}
+
+@compute @workgroup_size(256)
+fn advance(invocation: Invocation) {
+    let count = (params.count + REDUCTION_BLOCK - 1u) / REDUCTION_BLOCK;
+    var own = vec4<real>();
+    for (var block = invocation.local; block < count; block += REDUCTION_BLOCK) {
+        own = max(own, block_bound[block]);
+    }
+    let bound = largest(invocation.local, own);
+    if invocation.local == 0u && clock.running != 0u {
+        clock = next_clock(clock, bound);
+    }
+}
+
+fn hidden_number(x: real) -> real {
+    return bitcast<real>(bitcast<u32>(x) ^ params.zero);
+}
+
+fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
+    var next = before;
+    // The first call of a segment finds no step behind it.
+    if next.step > 0.0 {
+        // As compensated_add.
+        let corrected = next.step - next.elapsed_carry;
+        let total = hidden_number(next.elapsed + corrected);
+        next.elapsed_carry = hidden_number(total - next.elapsed) - corrected;
+        next.elapsed = total;
+        next.steps_left -= 1u;
+        next.steps_done += 1u;
+    }
+    if next.rebuild == 1u {
+        next.lists_built += 1u;
+    }
+    if next.fault == 0u {
+        next.fault = u32(bound.w);
+    }
+    let left = next.duration - next.elapsed;
+    var step = params.fixed_step;
+    if step <= 0.0 {
+        step = params.cfl / bound.x;
+    }
+    // Less than this is rounding of the sum of steps, not time left.
+    if next.fault != 0u || next.steps_left == 0u || left <= 1e-5 * step {
+        next.running = 0u;
+        return next;
+    }
+    // The last two steps share what is left, so that none is a sliver.
+    if left <= step * 1.00001 {
+        step = left;
+    } else if left < 2.0 * step && params.fixed_step == 0.0 {
+        step = left * 0.5;
+    }
+    next.step = step;
+    let ahead = sqrt(bound.y) + sqrt(bound.z) * step;
+    next.rebuild = u32(ahead > params.slack);
+    return next;
+}

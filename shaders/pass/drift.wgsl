@@ -1,0 +1,38 @@
+// u += (step/2) v, or the smoothed velocity for XSPH. Twin: src/pass/drift.rs
+#import invocation
+#import params
+#import moving_velocity
+#if compensated
+#import compensated
+#endif
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
+#if compensated
+@group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
+#endif
+#if xsph
+@group(0) @binding(_) var<storage, read> smoothed_velocity: array<Vec>;
+#if constraints
+@group(0) @binding(_) var<storage, read> constraint: array<u32>;
+@group(0) @binding(_) var<storage, read> velocity: array<Vec>;
+#endif
+#else
+@group(0) @binding(_) var<storage, read> velocity: array<Vec>;
+#endif
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let a = index_of(invocation);
+    if a >= params.count || clock.running == 0u {
+        return;
+    }
+    let increment = moving_velocity(a) * (0.5 * clock.step);
+#if compensated
+    let result = compensated_add(displacement[a], displacement_carry[a], increment);
+    displacement[a] = result.sum;
+    displacement_carry[a] = result.carry;
+#else
+    displacement[a] += increment;
+#endif
+}

@@ -1,0 +1,153 @@
+// Lists the particles within reach of each particle, mirror images included, in cell order.
+// Twin: src/pass/find_neighbors.rs
+#import invocation
+#import cell
+#import separation
+#if coupling
+#import coupling
+#endif
+
+@group(0) @binding(_) var<storage, read_write> clock: Clock;
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(_) var<storage, read> cell_particles: array<u32>;
+@group(0) @binding(_) var<storage, read_write> listed_displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> neighbors: array<u32>;
+@group(0) @binding(_) var<storage, read_write> neighbor_count: array<u32>;
+
+// Found more than the list can hold.
+const TOO_MANY: u32 = 0xffffffffu;
+
+// The particle whose neighbours are sought, and the image that they are sought in.
+struct Search {
+    a: u32,
+    row: u32,
+    image: u32,
+    reference: Vec,
+    displacement: Vec,
+#if coupling
+    body: u32,
+#endif
+}
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let row = index_of(invocation);
+    if row >= params.chunk || clock.running == 0u || clock.rebuild == 0u {
+        return;
+    }
+    let a = params.first + row;
+    let search = search_of(a, row);
+    listed_displacement[a] = search.displacement;
+    let found = list_one(search);
+    if found == TOO_MANY {
+        neighbor_count[a] = 0u;
+        clock.fault = LIST_FULL;
+    } else {
+        neighbor_count[a] = found;
+    }
+}
+
+fn search_of(a: u32, row: u32) -> Search {
+    var search: Search;
+    search.a = a;
+    search.row = row;
+    search.reference = reference_position[a];
+    search.displacement = displacement[a];
+#if coupling
+    search.body = body_index(a);
+#endif
+    return search;
+}
+
+// Fills one particle's list; TOO_MANY if it is too short.
+fn list_one(own: Search) -> u32 {
+    let x = own.reference + own.displacement;
+#if symmetry
+    var search = own;
+    var found = 0u;
+    // The image of every particle within reach of a is near a's own image only if a is near the plane.
+    let limit = 2.0 * params.reach * sqrt(real(params.plane_count));
+    for (var image = 0u; image < (1u << params.plane_count) && found != TOO_MANY; image++) {
+        let center = mirror_point(image, x);
+        let apart = x - center;
+        if image == 0u || inner(apart, apart) <= limit * limit {
+            search.image = image;
+            found = visit_cells(search, center, found);
+        }
+    }
+    return found;
+#else
+    return visit_cells(own, x, 0u);
+#endif
+}
+
+// First and last cell along an axis, beyond the grid's end where it wraps.
+fn range_of(cell: u32, cells: u32, period: real, axis: u32) -> vec2<i32> {
+    if axis >= DIMENSION {
+        return vec2<i32>(0);
+    }
+    let wraps = period > 0.0;
+    let low = select(i32(cell) - 1, 0, cell == 0u && !wraps);
+    let high = select(i32(cell) + 1, i32(cell), cell + 1u == cells && !wraps);
+    return vec2<i32>(low, high);
+}
+
+fn wrap(cell: i32, cells: u32) -> u32 {
+#if periodic
+    return u32(cell + i32(cells)) % cells;
+#else
+    return u32(cell);
+#endif
+}
+
+// Visits every particle of the cells around a point; takes and returns the number found.
+fn visit_cells(search: Search, center: Vec, found_before: u32) -> u32 {
+    let cell = cell_of(center);
+    let xs = range_of(cell.x, params.cells_x, params.period_x, 0u);
+    let ys = range_of(cell.y, params.cells_y, params.period_y, 1u);
+    let zs = range_of(cell.z, params.cells_z, params.period_z, 2u);
+    var found = found_before;
+    for (var z = zs.x; z <= zs.y; z++) {
+        for (var y = ys.x; y <= ys.y; y++) {
+            let row = (wrap(z, params.cells_z) * params.cells_y + wrap(y, params.cells_y)) * params.cells_x;
+            // Cells along x are contiguous, so a row is one range unless the box wraps along x.
+            var first = xs.x;
+            while first <= xs.y && found != TOO_MANY {
+                let start = wrap(first, params.cells_x);
+                let width = min(u32(xs.y - first), params.cells_x - 1u - start);
+                found = visit(search, cell_start[row + start], cell_start[row + start + width + 1u], found);
+                first += i32(width) + 1;
+            }
+        }
+    }
+    return found;
+}
+
+// Lists those within reach of a stretch of particles.
+fn visit(search: Search, first: u32, end: u32, found_before: u32) -> u32 {
+    var found = found_before;
+    for (var k = first; k < end; k++) {
+        let b = cell_particles[k];
+        if search.image == 0u && b == search.a {
+            continue;
+        }
+        let entry = b | (search.image << NEIGHBOR_BITS);
+        let apart = separation(search.reference, search.displacement, entry);
+        if inner(apart, apart) >= params.reach * params.reach {
+            continue;
+        }
+#if coupling
+        if pair_coupling(search.body, b) == 0.0 {
+            continue;
+        }
+#endif
+        if found == params.list_capacity {
+            return TOO_MANY;
+        }
+        neighbors[found * params.chunk + search.row] = entry;
+        found += 1u;
+    }
+    return found;
+}

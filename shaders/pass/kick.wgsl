@@ -1,0 +1,52 @@
+// v += (step/2) a, then the boundary conditions. Twin: src/pass/kick.rs
+#import invocation
+#import course
+#if compensated
+#import compensated
+#endif
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
+#if compensated
+@group(0) @binding(_) var<storage, read_write> velocity_carry: array<Vec>;
+#endif
+#if constraints
+@group(0) @binding(_) var<storage, read> constraint: array<u32>;
+#endif
+#if internal_energy
+@group(0) @binding(_) var<storage, read> internal_power: array<real>;
+@group(0) @binding(_) var<storage, read_write> internal_energy: array<real>;
+#endif
+#if dissipated_energy
+@group(0) @binding(_) var<storage, read> dissipated_power: array<real>;
+@group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
+#endif
+
+// When prescribed velocities are taken, as a fraction of the step.
+override stage_time: real;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let a = index_of(invocation);
+    if a >= params.count || clock.running == 0u {
+        return;
+    }
+    let half = 0.5 * clock.step;
+    let time = clock.start + clock.elapsed + stage_time * clock.step;
+    let increment = acceleration_at(a, time) * half;
+#if compensated
+    let result = compensated_add(velocity[a], velocity_carry[a], increment);
+    velocity[a] = prescribe(a, result.sum, time);
+    velocity_carry[a] = result.carry;
+#else
+    velocity[a] = prescribe(a, velocity[a] + increment, time);
+#endif
+    // Energies grow at the same two moments as the velocity, with the force of that moment.
+#if internal_energy
+    internal_energy[a] += internal_power[a] * half;
+#endif
+#if dissipated_energy
+    dissipated_energy[a] += dissipated_power[a] * half;
+#endif
+}

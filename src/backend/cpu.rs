@@ -1,0 +1,128 @@
+//! The CPU path: the twins, on all cores. In f64 it is the reference, and the fallback where there is no GPU.
+
+use super::{Backend, Columns};
+use crate::particles::{Field, Type};
+use crate::pass::{Call, Pass, Stage};
+use crate::state::{Clock, State};
+use crate::step;
+use crate::tensor::{Real, Space};
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Steps a host state.
+pub struct Cpu<S: Space> {
+    pub state: State<S>,
+    step: Vec<Call>,
+}
+
+impl<S: Space> Cpu<S> {
+    pub fn new(state: State<S>) -> Self {
+        Self { step: step::step(&state.method), state }
+    }
+
+    fn run(&mut self, calls: &[Call]) {
+        for call in calls {
+            call.pass.run(&mut self.state, call.stage);
+        }
+    }
+}
+
+/// Time that one call to `advance` may take before the run loop gets a look.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+impl<S: Space> Backend for Cpu<S> {
+    fn describe(&self) -> String {
+        format!("CPU, {} threads, f{}", rayon::current_num_threads(), 8 * size_of::<S::Real>())
+    }
+
+    fn bytes(&self) -> u64 {
+        let state = &self.state;
+        let columns: usize = state.particles.present().iter().map(|&f| state.particles.bytes(f).len()).sum();
+        let words = state.cell_count.len() + state.cell_start.len() + state.cell_particles.len() + state.neighbors.len();
+        (columns + 4 * words) as u64
+    }
+
+    fn begin_segment(&mut self, start: f64, duration: f64, steps: u32, first: bool) -> Result<(), String> {
+        let zero = S::Real::of(0.0);
+        self.state.clock = Clock {
+            start: S::Real::of(start),
+            elapsed: zero,
+            elapsed_carry: zero,
+            step: zero,
+            duration: S::Real::of(duration),
+            steps_left: steps,
+            running: 1,
+            rebuild: 1,
+            fault: 0,
+            ..self.state.clock
+        };
+        self.run(&step::begin_segment());
+        if first {
+            self.run(&step::begin_run(&self.state.method.clone()));
+        }
+        self.run(&[Call { pass: Pass::BoundTimeStep, stage: Stage::default() }]);
+        Ok(())
+    }
+
+    fn advance(&mut self) -> Result<Clock<f64>, String> {
+        let begin = Instant::now();
+        let step = self.step.clone();
+        while self.state.clock.running == 1 && begin.elapsed() < PATIENCE {
+            self.run(&step);
+        }
+        Ok(self.state.clock.to_f64())
+    }
+
+    fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String> {
+        let column = |&field: &Field| (field, numbers::<S>(field, self.state.particles.bytes(field)));
+        Ok(fields.iter().map(column).collect())
+    }
+
+    fn save(&mut self) -> Result<BTreeMap<Field, Vec<u8>>, String> {
+        let particles = &self.state.particles;
+        Ok(particles.present().into_iter().filter(|f| f.carried()).map(|f| (f, particles.bytes(f).to_vec())).collect())
+    }
+
+    fn load(&mut self, columns: &BTreeMap<Field, Vec<u8>>) -> Result<(), String> {
+        for (&field, bytes) in columns {
+            let column = self.state.particles.bytes_mut(field);
+            if column.len() != bytes.len() {
+                return Err(format!(
+                    "the checkpoint's {} has {} bytes where the scene has {}",
+                    field.name(),
+                    bytes.len(),
+                    column.len()
+                ));
+            }
+            column.copy_from_slice(bytes);
+        }
+        Ok(())
+    }
+
+    fn set_steps_done(&mut self, steps: u32) {
+        self.state.clock.steps_done = steps;
+    }
+
+    fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {
+        let mut list = Vec::new();
+        for call in calls {
+            // A pass that advances the clock would end the segment; every call sees the same state of the clock.
+            let clock = self.state.clock;
+            let begin = Instant::now();
+            for _ in 0..repeats {
+                call.pass.run(&mut self.state, call.stage);
+                self.state.clock = clock;
+            }
+            list.push((call.pass.name().to_string(), begin.elapsed().as_secs_f64() / f64::from(repeats)));
+        }
+        Ok(list)
+    }
+}
+
+/// A column's bytes as f64.
+fn numbers<S: Space>(field: Field, bytes: &[u8]) -> Vec<f64> {
+    if field.kind() == Type::Integer {
+        return bytemuck::cast_slice::<u8, u32>(bytes).iter().map(|&x| f64::from(x)).collect();
+    }
+    bytemuck::cast_slice::<u8, S::Real>(bytes).iter().map(|x| x.f64()).collect()
+}

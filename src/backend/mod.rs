@@ -1,0 +1,80 @@
+//! Where the passes run. The run loop ([`crate::run`]) knows only this trait.
+
+pub mod cpu;
+pub mod device;
+pub mod gpu;
+pub mod shader;
+
+use crate::particles::Field;
+use crate::pass::Call;
+use crate::scene::Scene;
+use crate::state::Clock;
+use crate::tensor::{Line, Plane, Solid};
+use std::collections::BTreeMap;
+
+/// Which backend a run is asked to use.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// The best hardware adapter, else the CPU.
+    #[default]
+    Auto,
+    /// An adapter, a software one too, perhaps by part of its name.
+    Gpu(Option<String>),
+    Cpu,
+    /// The CPU path in f32.
+    Cpu32,
+}
+
+/// Opens the backend for a scene; says in one line on stderr where `Auto` found no GPU.
+pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> {
+    let adapter = match choice {
+        Choice::Auto => {
+            let found = device::choose(device::Want::Auto, None)?;
+            if found.is_none() {
+                eprintln!("no hardware GPU with Vulkan found: running on the CPU");
+            }
+            found
+        }
+        Choice::Gpu(name) => {
+            let found = device::choose(device::Want::Gpu, name.as_deref())?;
+            Some(found.ok_or("no Vulkan adapter at all, not even a software one; --backend cpu runs without")?)
+        }
+        Choice::Cpu | Choice::Cpu32 => None,
+    };
+    match (scene.dimension(), adapter, choice) {
+        (1, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Line<f32>>(true))?)),
+        (2, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Plane<f32>>(true))?)),
+        (_, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Solid<f32>>(true))?)),
+        (1, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Line<f32>>(true)))),
+        (2, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Plane<f32>>(true)))),
+        (_, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Solid<f32>>(true)))),
+        (1, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Line<f64>>(false)))),
+        (2, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Plane<f64>>(false)))),
+        (_, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Solid<f64>>(false)))),
+    }
+}
+
+/// Columns as the host keeps them: f64, padded as the space pads them; integers as whole numbers.
+pub type Columns = BTreeMap<Field, Vec<f64>>;
+
+/// The machine that steps a run.
+pub trait Backend {
+    /// One line: device, driver, precision.
+    fn describe(&self) -> String;
+    /// Bytes that all tables take on the device.
+    fn bytes(&self) -> u64;
+    /// Begins a segment: sets the clock, sorts the particles, builds the list, bounds the first step.
+    /// `first` also computes the first acceleration of a run.
+    fn begin_segment(&mut self, start: f64, duration: f64, steps: u32, first: bool) -> Result<(), String>;
+    /// Advances by some steps, as many as keep the host responsive, and tells how far the device is.
+    fn advance(&mut self) -> Result<Clock<f64>, String>;
+    /// Brings fields to the host.
+    fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String>;
+    /// Carried fields as raw bytes in their present order, for a checkpoint that resumes bit for bit.
+    fn save(&mut self) -> Result<BTreeMap<Field, Vec<u8>>, String>;
+    fn load(&mut self, columns: &BTreeMap<Field, Vec<u8>>) -> Result<(), String>;
+    /// Sets the count of steps, when a run resumes.
+    fn set_steps_done(&mut self, steps: u32);
+    /// Seconds spent in each pass of one step, for the benchmark.
+    fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String>;
+}

@@ -1,0 +1,259 @@
+//! Shader text for one method, and what naga reads out of it.
+//!
+//! Sources are WGSL with four directives, each on a line of its own:
+//! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor` and
+//! `smoothing` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
+//! [`Method::flags`].
+//! `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
+//! are bound by the variables' names, which [`Shader::entry`] tells.
+
+use crate::pass::Pass;
+use crate::state::Method;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+macro_rules! library {
+    ($($folder:ident: $($stem:ident),*;)*) => {
+        /// Folder, stem and text of each file that `#import` finds.
+        const LIBRARY: &[(&str, &str, &str)] = &[$($((
+            stringify!($folder),
+            stringify!($stem),
+            include_str!(concat!("../../shaders/", stringify!($folder), "/", stringify!($stem), ".wgsl")),
+        )),*),*];
+    };
+}
+
+library! {
+    lib: body, body_index, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
+        moving_velocity, pair, pair_velocity, params, real, separation, tensor_1d, tensor_2d, tensor_3d, volume;
+    material: elastic;
+}
+
+/// Every word that `#if` may ask for.
+const FLAGS: &[&str] = &[
+    "line",
+    "plane",
+    "solid",
+    "shear",
+    "many_bodies",
+    "coupling",
+    "constraints",
+    "symmetry",
+    "periodic",
+    "body_force",
+    "viscosity",
+    "xsph",
+    "velocity_filter",
+    "artificial_stress",
+    "scalar_form",
+    "principal_form",
+    "summation",
+    "continuity",
+    "correct_rate",
+    "adjoint",
+    "internal_energy",
+    "dissipated_energy",
+    "power",
+    "pair_velocity",
+    "pair_volume",
+    "compensated",
+];
+
+/// What decides the text of a shader.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice<'a> {
+    pub flags: &'a [&'a str],
+    pub dimension: usize,
+    /// Text for `#import smoothing`.
+    pub smoothing: &'a str,
+}
+
+/// The WGSL of a pass for a method.
+///
+/// # Panics
+/// If a shader of this crate names an unknown flag, import or directive.
+pub fn compose(pass: Pass, method: &Method) -> String {
+    let choice = Choice { flags: &method.flags(), dimension: method.dimension, smoothing: method.smoothing.source() };
+    compose_text(pass.name(), pass.source(), &choice)
+}
+
+/// The same for any text; `name` is for messages.
+pub fn compose_text(name: &str, source: &str, choice: &Choice) -> String {
+    if let Some(flag) = choice.flags.iter().find(|flag| !FLAGS.contains(flag)) {
+        panic!("flag {flag} is missing from the list of known flags in backend/shader.rs");
+    }
+    let mut composer = Composer { choice, imported: Vec::new(), text: String::new() };
+    composer.add(name, source);
+    number_bindings(&composer.text)
+}
+
+struct Composer<'a> {
+    choice: &'a Choice<'a>,
+    imported: Vec<String>,
+    text: String,
+}
+
+impl Composer<'_> {
+    fn add(&mut self, name: &str, source: &str) {
+        // For each open `#if`: whether its present branch is kept.
+        let mut open: Vec<bool> = Vec::new();
+        for (k, line) in source.lines().enumerate() {
+            let wrong = |what: &str| -> ! { panic!("{name}.wgsl line {}: {what}: {line}", k + 1) };
+            let kept = open.iter().all(|&branch| branch);
+            let words: Vec<&str> = line.split_whitespace().collect();
+            match words[..] {
+                ["#if", flag] => {
+                    let (word, wanted) = flag.strip_prefix('!').map_or((flag, true), |word| (word, false));
+                    if !FLAGS.contains(&word) {
+                        wrong("unknown flag");
+                    }
+                    open.push(self.choice.flags.contains(&word) == wanted);
+                }
+                ["#else"] => match open.last_mut() {
+                    Some(branch) => *branch = !*branch,
+                    None => wrong("no open #if"),
+                },
+                ["#endif"] if open.pop().is_none() => wrong("no open #if"),
+                ["#endif"] => {}
+                ["#import", import] if kept => match self.find(import) {
+                    Some(text) => self.import(import, text),
+                    None => wrong("unknown import"),
+                },
+                ["#import", _] => {}
+                [word, ..] if word.starts_with('#') => wrong("unknown directive"),
+                _ if kept => {
+                    self.text.push_str(line);
+                    self.text.push('\n');
+                }
+                _ => {}
+            }
+        }
+        assert!(open.is_empty(), "{name}.wgsl: an #if is not closed");
+    }
+
+    fn find(&self, import: &str) -> Option<String> {
+        let stem = match import {
+            "smoothing" => return Some(self.choice.smoothing.to_string()),
+            "tensor" => format!("tensor_{}d", self.choice.dimension),
+            _ => import.to_string(),
+        };
+        LIBRARY.iter().find(|(_, name, _)| *name == stem).map(|(_, _, text)| text.to_string())
+    }
+
+    fn import(&mut self, name: &str, text: String) {
+        if !self.imported.iter().any(|done| done == name) {
+            self.imported.push(name.to_string());
+            self.add(name, &text);
+        }
+    }
+}
+
+fn number_bindings(text: &str) -> String {
+    let mut parts = text.split("@binding(_)");
+    let mut numbered = parts.next().unwrap_or_default().to_string();
+    for (number, part) in parts.enumerate() {
+        numbered.push_str(&format!("@binding({number})"));
+        numbered.push_str(part);
+    }
+    numbered
+}
+
+/// How a shader uses a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Uniform,
+    Read,
+    ReadWrite,
+}
+
+/// A buffer that an entry point uses.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Binding {
+    pub group: u32,
+    pub binding: u32,
+    pub name: String,
+    pub kind: Kind,
+}
+
+/// What the host must know of an entry point.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Interface {
+    /// Only what this entry point uses, in order of binding.
+    pub bindings: Vec<Binding>,
+    /// Invocations in a workgroup.
+    pub workgroup: u32,
+    /// Names of the `override` constants of the whole shader.
+    pub overrides: Vec<String>,
+}
+
+/// Parsed and validated WGSL.
+pub struct Shader {
+    module: naga::Module,
+    info: ModuleInfo,
+}
+
+impl Shader {
+    /// The error shows the place in the composed text.
+    pub fn parse(wgsl: &str) -> Result<Self, String> {
+        let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.emit_to_string(wgsl))?;
+        let info = Validator::new(ValidationFlags::all(), Capabilities::default())
+            .validate(&module)
+            .map_err(|error| error.emit_to_string(wgsl))?;
+        Ok(Self { module, info })
+    }
+
+    pub fn entry(&self, name: &str) -> Result<Interface, String> {
+        let entries = &self.module.entry_points;
+        let index =
+            entries.iter().position(|entry| entry.name == name).ok_or_else(|| format!("the shader has no entry point {name}"))?;
+        if entries[index].workgroup_size_overrides.is_some() {
+            return Err(format!("the workgroup size of {name} must be a number"));
+        }
+        let usage = self.info.get_entry_point(index);
+        let mut bindings: Vec<Binding> = (self.module.global_variables.iter())
+            .filter(|(handle, _)| !usage[*handle].is_empty())
+            .filter_map(|(_, variable)| binding_of(variable))
+            .collect();
+        bindings.sort_by_key(|binding| (binding.group, binding.binding));
+        Ok(Interface {
+            bindings,
+            workgroup: entries[index].workgroup_size.iter().product(),
+            overrides: self.module.overrides.iter().filter_map(|(_, constant)| constant.name.clone()).collect(),
+        })
+    }
+}
+
+/// Name and offset of each member of a structure, so that a test can hold the host's twin against it.
+pub fn offsets(wgsl: &str, structure: &str) -> Result<Vec<(String, u32)>, String> {
+    let shader = Shader::parse(wgsl)?;
+    let named = |(_, ty): (_, &naga::Type)| match &ty.inner {
+        naga::TypeInner::Struct { members, .. } if ty.name.as_deref() == Some(structure) => {
+            Some(members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset)).collect())
+        }
+        _ => None,
+    };
+    shader.module.types.iter().find_map(named).ok_or_else(|| format!("the shader has no structure {structure}"))
+}
+
+fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
+    let place = variable.binding.as_ref()?;
+    let kind = match variable.space {
+        naga::AddressSpace::Uniform => Kind::Uniform,
+        naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Kind::ReadWrite,
+        naga::AddressSpace::Storage { .. } => Kind::Read,
+        _ => return None,
+    };
+    Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind })
+}
+
+/// Bindings, workgroup size and constants of an entry point.
+pub fn reflect(wgsl: &str, entry: &str) -> Result<Interface, String> {
+    Shader::parse(wgsl)?.entry(entry)
+}
+
+/// Whether naga takes the text.
+pub fn validate(wgsl: &str) -> Result<(), String> {
+    Shader::parse(wgsl).map(|_| ())
+}
+
+#[cfg(test)]
+mod tests;

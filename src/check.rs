@@ -1,0 +1,179 @@
+//! Compares a finished run with what its scene expects.
+
+use crate::observable::{KINDS, Table, Value};
+use crate::output::csv;
+use crate::run::Finished;
+use crate::scene::Scene;
+use crate::scene::file::{Expect, Norm, Statistic};
+use std::path::Path;
+
+/// How a comparison came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    Pass,
+    Miss,
+    /// Inside the range that a method is known to give where it is wrong.
+    KnownMiss,
+}
+
+/// One line of the table.
+#[derive(Debug, Clone)]
+pub struct Row {
+    pub scene: String,
+    pub name: String,
+    pub seen: f64,
+    pub expected: String,
+    pub tolerance: String,
+    pub source: String,
+    pub verdict: Verdict,
+}
+
+/// All expectations that hold for the scene's variant.
+pub fn rows(scene: &Scene, finished: &Finished, folder: &Path) -> Result<Vec<Row>, String> {
+    let holds = |expect: &Expect| match expect.variant.as_deref() {
+        None => true,
+        Some("none") => scene.variant.is_none(),
+        Some(variant) => scene.variant.as_deref() == Some(variant),
+    };
+    let wanted = scene.file.expect.iter().filter(|(_, e)| holds(e));
+    wanted.map(|(name, expect)| row(scene, finished, folder, name, expect)).collect()
+}
+
+fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &Expect) -> Result<Row, String> {
+    let row = |seen: f64, expected: String, tolerance: String, verdict| Row {
+        scene: scene.label(),
+        name: name.into(),
+        seen,
+        expected,
+        tolerance,
+        source: expect.source.clone(),
+        verdict,
+    };
+    let judge = |holds| if holds { Verdict::Pass } else { Verdict::Miss };
+    let bound = expect.tolerance.unwrap_or(0.0);
+    if let Some(reference) = &expect.reference {
+        let seen = distance(scene, finished, &folder.join(reference), name, expect)?;
+        return Ok(row(seen, reference.clone(), format!("{bound}"), judge(seen <= bound)));
+    }
+    let seen = number(scene, finished, name, expect)?;
+    if let Some([low, high]) = expect.between {
+        let verdict = if (low..=high).contains(&seen) { Verdict::KnownMiss } else { Verdict::Miss };
+        let because = expect.because.clone().unwrap_or_default();
+        return Ok(row(seen, format!("{low} .. {high}"), because, verdict));
+    }
+    let value = expect.value.unwrap_or(0.0);
+    let allowed = if expect.relative { bound * value.abs() } else { bound };
+    let shown = if expect.relative { format!("{} %", 100.0 * bound) } else { format!("{bound:e}") };
+    Ok(row(seen, format!("{value}"), shown, judge((seen - value).abs() <= allowed)))
+}
+
+/// One number of an observable: a result, or a statistic of its series.
+fn number(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
+    let typed = &scene.file.observe[name];
+    let kind = KINDS.iter().find(|k| k.word == typed.kind).ok_or("unknown kind")?;
+    if let Value::Result(of) = kind.value {
+        return of(&finished.table, typed).map_err(|e| format!("{name}: {e}"));
+    }
+    let values: Vec<f64> = match finished.profiles.get(name) {
+        Some(rows) => rows.iter().map(|r| r.1).collect(),
+        None => finished.table.window(name, typed)?.into_iter().map(|r| r.1).collect(),
+    };
+    Ok(statistic(&values, expect.statistic.unwrap_or(Statistic::Final)))
+}
+
+fn statistic(values: &[f64], statistic: Statistic) -> f64 {
+    let (first, last) = (values[0], values[values.len() - 1]);
+    // NaN must not pass for an extreme.
+    if values.iter().any(|v| v.is_nan()) {
+        return f64::NAN;
+    }
+    match statistic {
+        Statistic::First => first,
+        Statistic::Final => last,
+        Statistic::Min => values.iter().copied().fold(f64::INFINITY, f64::min),
+        Statistic::Max => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        Statistic::Mean => values.iter().sum::<f64>() / values.len() as f64,
+        Statistic::Drift => values.iter().map(|v| (v - first).abs()).fold(0.0, f64::max),
+    }
+}
+
+/// Distance of a series or profile from a reference table, in the norm asked for.
+fn distance(scene: &Scene, finished: &Finished, path: &Path, name: &str, expect: &Expect) -> Result<f64, String> {
+    let reference = reference(path, expect)?;
+    let seen: Vec<(f64, f64)> = match finished.profiles.get(name) {
+        Some(rows) => rows.clone(),
+        None => finished.table.window(name, &scene.file.observe[name])?,
+    };
+    let within = |x: f64| x >= reference[0].0 && x <= reference[reference.len() - 1].0;
+    let pairs: Vec<(f64, f64)> = seen.iter().filter(|r| within(r.0)).map(|&(x, y)| (y, interpolate(&reference, x))).collect();
+    if pairs.is_empty() {
+        return Err(format!("{name}: no row lies within the reference {}", path.display()));
+    }
+    let scale = if expect.relative { pairs.iter().map(|p| p.1.abs()).fold(0.0, f64::max) } else { 1.0 };
+    let gap = |p: &(f64, f64)| (p.0 - p.1).abs();
+    Ok(match expect.norm.unwrap_or(Norm::Max) {
+        Norm::Max => pairs.iter().map(gap).fold(0.0, |m: f64, g| if g.is_nan() { g } else { m.max(g) }) / scale,
+        Norm::Rms => (pairs.iter().map(|p| gap(p).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt() / scale,
+        Norm::Final => gap(&pairs[pairs.len() - 1]) / scale,
+        Norm::Phase => phase(&seen, &reference),
+    })
+}
+
+fn reference(path: &Path, expect: &Expect) -> Result<Vec<(f64, f64)>, String> {
+    let (names, rows) = csv::read(path)?;
+    let [x, y] = expect.columns.as_ref().ok_or("a reference needs its two columns")?;
+    let find = |wanted: &String| {
+        names.iter().position(|n| n == wanted).ok_or_else(|| format!("{} has no column `{wanted}`", path.display()))
+    };
+    let (x, y) = (find(x)?, find(y)?);
+    Ok(rows.iter().map(|r| (r[x], r[y])).collect())
+}
+
+fn interpolate(table: &[(f64, f64)], x: f64) -> f64 {
+    let k = table.partition_point(|row| row.0 < x).clamp(1, table.len() - 1);
+    let ((x0, y0), (x1, y1)) = (table[k - 1], table[k]);
+    y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+}
+
+/// Difference of the mean distance between upward crossings of the mean, over that of the reference.
+fn phase(seen: &[(f64, f64)], reference: &[(f64, f64)]) -> f64 {
+    (period(seen) / period(reference) - 1.0).abs()
+}
+
+fn period(rows: &[(f64, f64)]) -> f64 {
+    let mean = rows.iter().map(|r| r.1).sum::<f64>() / rows.len() as f64;
+    let crossing = |w: &[(f64, f64)]| {
+        let (a, b) = (w[0].1 - mean, w[1].1 - mean);
+        (a < 0.0 && b >= 0.0).then(|| w[0].0 + (w[1].0 - w[0].0) * a / (a - b))
+    };
+    let times: Vec<f64> = rows.windows(2).filter_map(crossing).collect();
+    if times.len() < 2 { f64::NAN } else { (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64 }
+}
+
+/// The table as text.
+pub fn text(rows: &[Row]) -> String {
+    let mut out =
+        format!("{:<28} {:<22} {:>13} {:>18} {:<14} {:<10} source\n", "scene", "observable", "seen", "expected", "tolerance", "");
+    for row in rows {
+        let verdict = match row.verdict {
+            Verdict::Pass => "pass",
+            Verdict::Miss => "MISS",
+            Verdict::KnownMiss => "known miss",
+        };
+        let (tolerance, because) = if row.verdict == Verdict::KnownMiss || row.expected.contains("..") {
+            ("range", format!("; {}", row.tolerance))
+        } else {
+            (row.tolerance.as_str(), String::new())
+        };
+        out += &format!(
+            "{:<28} {:<22} {:>13.6e} {:>18} {:<14} {:<10} {}{because}\n",
+            row.scene, row.name, row.seen, row.expected, tolerance, verdict, row.source
+        );
+    }
+    out
+}
+
+/// A series by name, for tests.
+pub fn series<'a>(table: &'a Table, name: &str) -> &'a [f64] {
+    table.columns.get(name).map_or(&[], Vec::as_slice)
+}

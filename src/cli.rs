@@ -1,0 +1,356 @@
+//! Command line: words, and the table of commands.
+
+use crate::backend::Choice;
+use crate::run::{Finished, INTERRUPTED, Options, Stop};
+use crate::scene::Scene;
+use crate::{check, observable, output, particles, pass, run, scene, smoothing};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+/// Solids by smoothed particle hydrodynamics, on any GPU.
+#[derive(Debug, Parser)]
+#[command(name = "lithosph", version)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene and write series, particles and pictures.
+    Run(RunArgs),
+    /// Run scenes and compare them with what they expect; exit code 0 only if all holds.
+    Check(CheckArgs),
+    /// Paint stored particle states.
+    Render(RenderArgs),
+    /// List kernels, passes, fields, observables; or the variants of a scene.
+    List { scene: Option<PathBuf> },
+    /// List the adapters that a run can use.
+    Devices,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BackendWord {
+    /// The best hardware adapter, else the CPU.
+    Auto,
+    /// Any adapter, a software one too.
+    Gpu,
+    Cpu,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PrecisionWord {
+    F32,
+    F64,
+}
+
+#[derive(Debug, Args)]
+struct Where {
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: BackendWord,
+    /// Part of an adapter's name, as `lithosph devices` prints it.
+    #[arg(long)]
+    adapter: Option<String>,
+    /// Precision of the CPU path; a GPU steps in f32.
+    #[arg(long, value_enum, default_value = "f64")]
+    precision: PrecisionWord,
+    /// Threads of the CPU path; all cores unless given.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// No progress bar and no summary.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Where {
+    fn choice(&self) -> Choice {
+        match (self.backend, self.precision) {
+            (BackendWord::Auto, _) if self.adapter.is_none() => Choice::Auto,
+            (BackendWord::Cpu, PrecisionWord::F32) => Choice::Cpu32,
+            (BackendWord::Cpu, PrecisionWord::F64) => Choice::Cpu,
+            _ => Choice::Gpu(self.adapter.clone()),
+        }
+    }
+
+    fn set_threads(&self) -> Result<(), Stop> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let built = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        built.map_err(|e| Stop::Refused(format!("--threads {threads}: {e}")))
+    }
+}
+
+#[derive(Debug, Args)]
+struct RunArgs {
+    #[arg(required_unless_present = "resume")]
+    scene: Option<PathBuf>,
+    #[arg(long)]
+    variant: Option<String>,
+    /// Override a value: `--set formulation.viscosity.alpha=0.5`. May be given several times.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Output folder; out/SCENE[-VARIANT] unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Overwrite an output folder.
+    #[arg(long)]
+    force: bool,
+    /// Go on from the checkpoint in this output folder.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "variant", "set", "out", "force"])]
+    resume: Option<PathBuf>,
+    #[command(flatten)]
+    place: Where,
+}
+
+#[derive(Debug, Args)]
+struct CheckArgs {
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// Only this variant; all, and the scene without one, unless given.
+    #[arg(long)]
+    variant: Option<String>,
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Only scenes marked `ci = true`.
+    #[arg(long)]
+    ci: bool,
+    #[command(flatten)]
+    place: Where,
+}
+
+#[derive(Debug, Args)]
+struct RenderArgs {
+    /// A particles.vtkhdf, or the folder that holds one.
+    file: PathBuf,
+    /// Field by path: pressure, velocity.magnitude, stress.von_mises, stress.yy …
+    #[arg(long)]
+    field: Option<String>,
+    /// Colour range.
+    #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true)]
+    range: Option<Vec<f64>>,
+    /// Only this stored step, counted from 0; all unless given.
+    #[arg(long)]
+    step: Option<usize>,
+    #[arg(long, default_value_t = 1200)]
+    width: u32,
+    #[arg(long, default_value_t = 900)]
+    height: u32,
+    /// Direction from which a 3D scene is seen.
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
+    eye: Option<Vec<f64>>,
+    /// Folder for the pictures; `frames` beside the file unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Paint on the GPU even if it is a software one.
+    #[arg(long)]
+    gpu: bool,
+}
+
+/// Does what the command line says; gives the exit code.
+pub fn main() -> i32 {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return if error.use_stderr() { 2 } else { 0 };
+        }
+    };
+    // A second signal ends the process at once.
+    let handler = || {
+        if INTERRUPTED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        eprintln!("lithosph: cannot listen for interrupts: {error}");
+    }
+    let result = match cli.command {
+        Command::Run(args) => run_scene(&args),
+        Command::Check(args) => check_scenes(&args),
+        Command::Render(args) => render(&args),
+        Command::List { scene } => list(scene.as_deref()),
+        Command::Devices => devices(),
+    };
+    match result {
+        Ok(code) => code,
+        Err(stop) => {
+            let (code, message) = match stop {
+                Stop::Refused(message) => (2, message),
+                Stop::Failed(message) => (1, message),
+                Stop::Interrupted(message) => (130, message),
+            };
+            eprintln!("lithosph: {message}");
+            code
+        }
+    }
+}
+
+fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
+    args.place.set_threads()?;
+    let options =
+        Options { choice: args.place.choice(), out: args.out.clone(), dry: false, force: args.force, quiet: args.place.quiet };
+    let finished = match (&args.resume, &args.scene) {
+        (Some(folder), _) => {
+            let scene = Scene::open(&folder.join("run.toml"), None, &[]).map_err(Stop::Refused)?;
+            run::resume(&scene, &options, folder.clone())?
+        }
+        (None, Some(path)) => {
+            let scene = Scene::open(path, args.variant.as_deref(), &args.set).map_err(Stop::Refused)?;
+            announce(&scene, &options);
+            run::run(&scene, &options)?
+        }
+        (None, None) => return Err(Stop::Refused("run needs a scene, or --resume with a folder".into())),
+    };
+    if !args.place.quiet {
+        tell(&finished);
+    }
+    Ok(0)
+}
+
+fn announce(scene: &Scene, options: &Options) {
+    if !options.quiet {
+        println!("{}: {}", scene.label(), scene.file.title);
+    }
+}
+
+fn tell(finished: &Finished) {
+    println!("{}", finished.summary.text());
+    if let Some(folder) = &finished.folder {
+        println!("written to {}", folder.display());
+    }
+}
+
+fn check_scenes(args: &CheckArgs) -> Result<i32, Stop> {
+    args.place.set_threads()?;
+    let mut all = Vec::new();
+    for path in &args.scenes {
+        all.extend(check_scene(path, args)?);
+    }
+    print!("{}", check::text(&all));
+    let missed = all.iter().filter(|row| row.verdict == check::Verdict::Miss).count();
+    println!("{} expectations, {missed} missed", all.len());
+    Ok(i32::from(missed > 0))
+}
+
+fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
+    let variants: Vec<Option<String>> = match &args.variant {
+        Some(word) if word == "none" => vec![None],
+        Some(word) => vec![Some(word.clone())],
+        None => std::iter::once(None).chain(scene::read::variants(path).map_err(Stop::Refused)?.into_iter().map(Some)).collect(),
+    };
+    let mut rows = Vec::new();
+    for variant in variants {
+        let scene = Scene::open(path, variant.as_deref(), &args.set).map_err(Stop::Refused)?;
+        if (args.ci && !scene.file.ci) || !expects_something(&scene) {
+            continue;
+        }
+        let options = Options { choice: args.place.choice(), dry: true, quiet: args.place.quiet, ..Options::default() };
+        let finished = run::run(&scene, &options)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        rows.extend(check::rows(&scene, &finished, folder).map_err(Stop::Refused)?);
+    }
+    Ok(rows)
+}
+
+/// A run that nothing is expected of would only cost time.
+fn expects_something(scene: &Scene) -> bool {
+    scene.file.expect.values().any(|expect| match expect.variant.as_deref() {
+        None => true,
+        Some("none") => scene.variant.is_none(),
+        Some(word) => scene.variant.as_deref() == Some(word),
+    })
+}
+
+#[cfg(feature = "hdf5")]
+fn render(args: &RenderArgs) -> Result<i32, Stop> {
+    let refuse = Stop::Refused;
+    let file = if args.file.is_dir() { args.file.join("particles.vtkhdf") } else { args.file.clone() };
+    let times = output::vtkhdf::read(&file).map_err(refuse)?;
+    let steps: Vec<usize> = match args.step {
+        Some(k) if k >= times.len() => {
+            return Err(Stop::Refused(format!(
+                "{} holds {} steps, counted from 0; there is no step {k}",
+                file.display(),
+                times.len()
+            )));
+        }
+        Some(k) => vec![k],
+        None => (0..times.len()).collect(),
+    };
+    let beside = file.parent().unwrap_or(Path::new("."));
+    let folder = args.out.clone().unwrap_or_else(|| beside.join("frames"));
+    std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
+    let painter = output::Painter::choose(args.gpu).map_err(refuse)?;
+    let mut view = output::View {
+        width: args.width,
+        height: args.height,
+        field: args.field.clone().unwrap_or_else(|| "velocity.magnitude".into()),
+        range: args.range.as_ref().map(|r| [r[0], r[1]]),
+        eye: args.eye.as_ref().map(|e| [e[0], e[1], e[2]]),
+        caption: beside.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
+        ..output::View::default()
+    };
+    for k in steps {
+        let snapshot = output::vtkhdf::read_step(&file, k).map_err(refuse)?;
+        // The first frame's box serves all, so that a sequence does not jump.
+        view.bounds = view.bounds.or_else(|| Some(snapshot.bounds()));
+        let picture = painter.paint(&snapshot, &view).map_err(refuse)?;
+        output::save_png(&folder.join(format!("{k:05}.png")), &picture).map_err(Stop::Failed)?;
+    }
+    println!("pictures written to {}", folder.display());
+    Ok(0)
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn render(_: &RenderArgs) -> Result<i32, Stop> {
+    Err(Stop::Refused("this build has no HDF5, so it cannot read stored particles".into()))
+}
+
+fn list(path: Option<&Path>) -> Result<i32, Stop> {
+    if let Some(path) = path {
+        for variant in scene::read::variants(path).map_err(Stop::Refused)? {
+            println!("{variant}");
+        }
+        return Ok(0);
+    }
+    println!("smoothing kernels");
+    for kernel in smoothing::Smoothing::ALL {
+        println!("  {:<24} {}", kernel.word(), kernel.about());
+    }
+    println!("observables");
+    for kind in observable::KINDS {
+        println!("  {:<24} {}", kind.word, kind.about);
+    }
+    println!("passes");
+    for pass in pass::Pass::ALL {
+        println!("  {:<24} {}", pass.name(), pass.about());
+    }
+    println!("fields");
+    for field in particles::Field::ALL {
+        println!("  {:<24} {}", field.name(), field.about());
+    }
+    Ok(0)
+}
+
+fn devices() -> Result<i32, Stop> {
+    let list = crate::backend::device::list();
+    for device in &list {
+        let yes = |on: bool, word: &'static str| if on { word } else { "" };
+        println!(
+            "{}, {} ({} {}), {}{}{}, largest table {} MiB",
+            device.name,
+            device.backend,
+            device.driver,
+            device.driver_info,
+            device.kind,
+            yes(device.f64, ", f64"),
+            yes(device.timestamps, ", timestamps"),
+            device.max_binding_bytes >> 20,
+        );
+    }
+    println!("CPU, {} threads: the reference path, f64", rayon::current_num_threads());
+    if list.is_empty() {
+        println!("no Vulkan adapter: runs use the CPU");
+    }
+    Ok(0)
+}

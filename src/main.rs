@@ -1,0 +1,5 @@
+//! Command line of lithosph; see [`lithosph::cli`].
+
+fn main() {
+    std::process::exit(lithosph::cli::main());
+}

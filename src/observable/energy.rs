@@ -1,0 +1,69 @@
+//! Energies of the selected particles.
+
+use super::{Kind, Moment, Observer, Value};
+use crate::particles::Field;
+
+fn sum(observer: &Observer, of: impl Fn(usize) -> f64) -> f64 {
+    observer.particles.iter().map(|&i| of(i)).sum()
+}
+
+fn kinetic(moment: &Moment, i: usize) -> f64 {
+    let v = moment.vector(Field::Velocity, i);
+    0.5 * moment.scene.mass(i) * v.iter().map(|c| c * c).sum::<f64>()
+}
+
+pub const KINETIC: Kind = Kind {
+    word: "kinetic_energy",
+    about: "sum of m v^2/2",
+    needs: &[],
+    fields: &[Field::Velocity],
+    value: Value::Series(|moment, observer| sum(observer, |i| kinetic(moment, i))),
+};
+
+pub const ELASTIC: Kind = Kind {
+    word: "elastic_energy",
+    about: "sum of V0 (K (e - ln(1 + e)) + (1 + e) S:S/(4 mu))",
+    needs: &[],
+    fields: &[Field::VolumetricStrain],
+    value: Value::Series(|moment, observer| sum(observer, |i| moment.elastic_energy(i))),
+};
+
+pub const INTERNAL: Kind = Kind {
+    word: "internal_energy",
+    about: "sum of m u, u from the energy equation (formulation.internal_energy)",
+    needs: &[],
+    fields: &[Field::InternalEnergy],
+    value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::InternalEnergy, i))),
+};
+
+pub const DISSIPATED: Kind = Kind {
+    word: "dissipated_energy",
+    about: "heat made by viscosity so far (formulation.dissipated_energy)",
+    needs: &[],
+    fields: &[Field::DissipatedEnergy],
+    value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i))),
+};
+
+pub const TOTAL: Kind = Kind {
+    word: "total_energy",
+    about: "kinetic and elastic energy, and the dissipated one where the scene adds it up",
+    needs: &[],
+    fields: &[Field::Velocity, Field::VolumetricStrain],
+    value: Value::Series(|moment, observer| {
+        sum(observer, |i| {
+            let heat = moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i);
+            kinetic(moment, i) + moment.elastic_energy(i) + heat
+        })
+    }),
+};
+
+pub const SPEED: Kind = Kind {
+    word: "rms_speed",
+    about: "sqrt(2 kinetic energy/mass): Strand's total velocity",
+    needs: &[],
+    fields: &[Field::Velocity],
+    value: Value::Series(|moment, observer| {
+        let mass = sum(observer, |i| moment.scene.mass(i));
+        (2.0 * sum(observer, |i| kinetic(moment, i)) / mass).sqrt()
+    }),
+};

@@ -1,0 +1,210 @@
+//! Numbers that a run is judged by: host only, f64, from one moment of the state.
+//!
+//! A **series** kind gives a number at every row of `series.csv`; a **result** kind is found from a finished
+//! series; a profile is a table taken at the end. Adding one is a file and a line in the list below.
+
+mod energy;
+mod force;
+mod moment;
+mod momentum;
+mod neighborhood;
+mod probe;
+mod profile;
+mod result;
+mod rotation;
+
+pub use moment::{Moment, fields_of_path};
+pub use profile::profile;
+pub use result::Table;
+
+use crate::particles::Field;
+use crate::scene::Scene;
+use crate::scene::file::Observe;
+use crate::scene::read::nearest;
+
+/// One kind of observable.
+pub struct Kind {
+    /// Word in a scene.
+    pub word: &'static str,
+    pub about: &'static str,
+    /// Keys of `[observe.NAME]` that it cannot do without.
+    pub needs: &'static [&'static str],
+    /// Fields that it reads; those that a run lacks are refused.
+    pub fields: &'static [Field],
+    pub value: Value,
+}
+
+/// How the number is found.
+pub enum Value {
+    Series(fn(&Moment, &Observer) -> f64),
+    Result(fn(&Table, &Observe) -> Result<f64, String>),
+    Profile,
+}
+
+/// An observable of a scene, its selection resolved once.
+pub struct Observer {
+    pub name: String,
+    pub typed: Observe,
+    pub kind: &'static Kind,
+    /// Numbers of the particles that it is taken over.
+    pub particles: Vec<usize>,
+    /// Component along which it is taken.
+    pub axis: Option<usize>,
+}
+
+/// Every kind, in the order that `lithosph list` prints.
+pub static KINDS: &[Kind] = &[
+    energy::KINETIC,
+    energy::ELASTIC,
+    energy::INTERNAL,
+    energy::DISSIPATED,
+    energy::TOTAL,
+    energy::SPEED,
+    momentum::LINEAR,
+    momentum::ANGULAR,
+    momentum::VELOCITY,
+    momentum::POSITION,
+    rotation::ANGLE,
+    force::FORCE,
+    probe::PROBE,
+    probe::MEAN,
+    probe::LARGEST,
+    probe::SMALLEST,
+    neighborhood::PIECES,
+    neighborhood::DISTANCE,
+    neighborhood::DISORDER,
+    result::RESTITUTION,
+    result::GROWTH_RATE,
+    result::RATIO,
+    result::RMS,
+    profile::PROFILE,
+];
+
+/// Word of an axis as an index; "magnitude" and none give None.
+fn axis_index(word: Option<&str>) -> Option<usize> {
+    word.and_then(|w| ["x", "y", "z"].iter().position(|a| *a == w))
+}
+
+/// Resolves the scene's observables.
+pub fn observers(scene: &Scene) -> Vec<Observer> {
+    let resolve = |(name, typed): (&String, &Observe)| {
+        let kind = KINDS.iter().find(|kind| kind.word == typed.kind)?;
+        let particles = match &typed.at {
+            Some(at) => vec![scene.nearest(at.vector())],
+            None => scene.select(typed.body.as_deref(), typed.inside.as_ref()),
+        };
+        Some(Observer { name: name.clone(), typed: typed.clone(), kind, particles, axis: axis_index(typed.axis.as_deref()) })
+    };
+    scene.file.observe.iter().filter_map(resolve).collect()
+}
+
+/// Refuses observables and expectations that the scene cannot give.
+pub fn check(scene: &Scene, refuse: impl Fn(&[&str], String) -> String) -> Result<(), String> {
+    for (name, typed) in &scene.file.observe {
+        check_one(scene, name, typed).map_err(|message| refuse(&["observe", name], format!("observable `{name}` {message}")))?;
+    }
+    for (name, expect) in &scene.file.expect {
+        let message = check_expect(scene, name, expect);
+        message.map_err(|message| refuse(&["expect", name], format!("expectation `{name}` {message}")))?;
+    }
+    Ok(())
+}
+
+fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
+    let Some(kind) = KINDS.iter().find(|kind| kind.word == typed.kind) else {
+        let hint = nearest(&typed.kind, KINDS.iter().map(|k| k.word)).unwrap_or("kinetic_energy");
+        return Err(format!("is of the unknown kind `{}`; did you mean `{hint}`?", typed.kind));
+    };
+    for key in kind.needs {
+        let given = match *key {
+            "field" => typed.field.is_some(),
+            "axis" => typed.axis.is_some(),
+            "of" => typed.of.is_some(),
+            "over" => typed.over.is_some(),
+            "between" => typed.between.is_some(),
+            "at" => typed.at.is_some(),
+            _ => true,
+        };
+        if !given {
+            return Err(format!("is a {}: it needs the key `{key}`", kind.word));
+        }
+    }
+    for other in [&typed.of, &typed.over].into_iter().flatten() {
+        if other == name || !scene.file.observe.contains_key(other) {
+            let hint = nearest(other, scene.file.observe.keys().map(String::as_str)).unwrap_or("none");
+            return Err(format!("is found from `{other}`, which is no other observable; did you mean `{hint}`?"));
+        }
+    }
+    if let Some(word) = &typed.axis
+        && !["x", "y", "z", "magnitude"].contains(&word.as_str())
+    {
+        return Err(format!("has the axis `{word}`; expected x, y, z or magnitude"));
+    }
+    if let Some(body) = &typed.body
+        && scene.body_index(body).is_none()
+    {
+        let hint = nearest(body, scene.bodies.iter().map(|b| b.name.as_str())).unwrap_or("none");
+        return Err(format!("is taken over `{body}`, which is no body; did you mean `{hint}`?"));
+    }
+    if scene.select(typed.body.as_deref(), typed.inside.as_ref()).is_empty() {
+        return Err("selects no particle".into());
+    }
+    let present = crate::step::fields(&scene.method);
+    if let Some(missing) = kind.fields.iter().find(|f| !present.contains(f)) {
+        return Err(format!("needs the field {}, which this scene does not name", missing.name()));
+    }
+    if let Some(path) = &typed.field {
+        moment::check_path(scene, path)?;
+    }
+    Ok(())
+}
+
+fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) -> Result<(), String> {
+    if !scene.file.observe.contains_key(name) {
+        let hint = nearest(name, scene.file.observe.keys().map(String::as_str)).unwrap_or("none");
+        return Err(format!("names no observable; did you mean `{hint}`?"));
+    }
+    if expect.source.is_empty() {
+        return Err("needs a source: where does the number come from?".into());
+    }
+    let forms = [expect.value.is_some(), expect.reference.is_some(), expect.between.is_some()];
+    if forms.iter().filter(|&&f| f).count() != 1 {
+        return Err("needs exactly one of value, reference and between".into());
+    }
+    if expect.between.is_none() && expect.tolerance.is_none() {
+        return Err("needs a tolerance".into());
+    }
+    if expect.between.is_some() && expect.because.is_none() {
+        return Err("gives the range of a known miss: it needs `because`".into());
+    }
+    if expect.reference.is_some() && expect.columns.is_none() {
+        return Err("needs the two columns of its reference".into());
+    }
+    if let Some(variant) = &expect.variant
+        && !scene.file.variant.contains_key(variant)
+        && variant != "none"
+    {
+        let hint = nearest(variant, scene.file.variant.keys().map(String::as_str)).unwrap_or("none");
+        return Err(format!("holds for `{variant}`, which is no variant; did you mean `{hint}`?"));
+    }
+    Ok(())
+}
+
+/// Fields that the host must see at every row of the series.
+pub fn fields_read(observers: &[Observer], scene: &Scene) -> Vec<Field> {
+    let present = crate::step::fields(&scene.method);
+    let mut list = vec![Field::Number];
+    for observer in observers {
+        list.extend_from_slice(observer.kind.fields);
+        if observer.kind.fields.contains(&Field::VolumetricStrain) {
+            // An energy counts what the scene has of these.
+            list.extend([Field::DeviatoricStress, Field::DissipatedEnergy].iter().filter(|f| present.contains(f)));
+        }
+        if let Some(path) = &observer.typed.field {
+            list.extend(moment::fields_of_path(scene, path));
+        }
+    }
+    list.sort_unstable();
+    list.dedup();
+    list
+}

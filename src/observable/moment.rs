@@ -1,0 +1,211 @@
+//! One moment of a run on the host, ordered by particle number, and every quantity that can be made of it.
+
+use crate::backend::Columns;
+use crate::material;
+use crate::output::{Column, Snapshot};
+use crate::particles::{Field, Type, unit_text};
+use crate::scene::Scene;
+use crate::scene::read::nearest;
+
+/// Fields at one time.
+pub struct Moment<'a> {
+    pub scene: &'a Scene,
+    pub time: f64,
+    pub step: u64,
+    columns: Columns,
+}
+
+/// What a path may begin with: name, numbers a particle, fields it is made of.
+const QUANTITIES: &[(&str, usize, &[Field])] = &[
+    ("position", 3, &[Field::Displacement]),
+    ("displacement", 3, &[Field::Displacement]),
+    ("velocity", 3, &[Field::Velocity]),
+    ("acceleration", 3, &[Field::Acceleration]),
+    ("stress", 6, &[Field::VolumetricStrain, Field::DeviatoricStress]),
+    ("pressure", 1, &[Field::VolumetricStrain]),
+    ("density", 1, &[Field::VolumetricStrain]),
+    ("volumetric_strain", 1, &[Field::VolumetricStrain]),
+    ("internal_energy", 1, &[Field::InternalEnergy]),
+    ("dissipated_energy", 1, &[Field::DissipatedEnergy]),
+    ("body", 1, &[]),
+    ("constraint", 1, &[]),
+];
+
+fn quantity(path: &str) -> Result<&'static (&'static str, usize, &'static [Field]), String> {
+    let word = path.split('.').next().unwrap_or(path);
+    QUANTITIES.iter().find(|q| q.0 == word).ok_or_else(|| {
+        let hint = nearest(word, QUANTITIES.iter().map(|q| q.0)).unwrap_or("velocity");
+        format!("reads the unknown field `{path}`; did you mean `{hint}`?")
+    })
+}
+
+/// Fields needed for a path, of those that the scene has.
+pub fn fields_of_path(scene: &Scene, path: &str) -> Vec<Field> {
+    let present = crate::step::fields(&scene.method);
+    quantity(path).map_or_else(|_| Vec::new(), |q| q.2.iter().copied().filter(|f| present.contains(f)).collect())
+}
+
+/// Refuses a path that names no quantity, no part of it, or a field that the scene lacks.
+pub fn check_path(scene: &Scene, path: &str) -> Result<(), String> {
+    let (word, components, fields) = quantity(path)?;
+    let present = crate::step::fields(&scene.method);
+    if let Some(field) = fields.iter().find(|f| !present.contains(f) && **f != Field::DeviatoricStress) {
+        return Err(format!("reads {word}, and this scene has no field {}", field.name()));
+    }
+    let snapshot = Snapshot {
+        dimension: scene.dimension(),
+        positions: vec![[0.0; 3]],
+        columns: vec![Column {
+            name: (*word).into(),
+            unit: String::new(),
+            components: *components,
+            values: vec![0.0; *components],
+        }],
+        ..Snapshot::default()
+    };
+    snapshot.scalar(path).map(|_| ())
+}
+
+impl<'a> Moment<'a> {
+    /// Sorts what a backend fetched; it must contain the particle numbers.
+    pub fn new(scene: &'a Scene, time: f64, step: u64, fetched: &Columns) -> Self {
+        let numbers = &fetched[&Field::Number];
+        let columns = fetched.iter().map(|(&field, column)| (field, sorted(column, numbers))).collect();
+        Self { scene, time, step, columns }
+    }
+
+    pub fn count(&self) -> usize {
+        self.scene.particles.len()
+    }
+
+    /// The particle's numbers of a field, padding included; zeros where the run lacks the field.
+    fn row(&self, field: Field, i: usize) -> &[f64] {
+        static ZEROS: [f64; 12] = [0.0; 12];
+        let words = field.kind().words_in(self.scene.dimension());
+        self.columns.get(&field).map_or(&ZEROS[..words], |column| &column[i * words..(i + 1) * words])
+    }
+
+    pub fn scalar(&self, field: Field, i: usize) -> f64 {
+        self.row(field, i)[0]
+    }
+
+    pub fn vector(&self, field: Field, i: usize) -> [f64; 3] {
+        debug_assert_eq!(field.kind(), Type::Vec);
+        let row = self.row(field, i);
+        std::array::from_fn(|k| if k < self.scene.dimension() { row[k] } else { 0.0 })
+    }
+
+    pub fn position(&self, i: usize) -> [f64; 3] {
+        let u = self.vector(Field::Displacement, i);
+        let x = self.scene.particles[i].position.to_array();
+        std::array::from_fn(|k| x[k] + u[k])
+    }
+
+    pub fn volumetric_strain(&self, i: usize) -> f64 {
+        self.scalar(Field::VolumetricStrain, i)
+    }
+
+    /// Deviator xx, yy, zz, xy, yz, xz; the axes that the scene lacks carry what the zero trace asks for.
+    pub fn deviator(&self, i: usize) -> [f64; 6] {
+        let s = self.row(Field::DeviatoricStress, i);
+        match self.scene.dimension() {
+            1 => [s[0], -0.5 * s[0], -0.5 * s[0], 0.0, 0.0, 0.0],
+            2 => [s[0], s[1], -s[0] - s[1], s[2], 0.0, 0.0],
+            _ => std::array::from_fn(|k| s[k]),
+        }
+    }
+
+    pub fn pressure(&self, i: usize) -> f64 {
+        let body = &self.scene.bodies[self.scene.particles[i].body as usize];
+        material::pressure(body.bulk_modulus, self.volumetric_strain(i))
+    }
+
+    /// xx, yy, zz, xy, yz, xz; tension positive.
+    pub fn stress(&self, i: usize) -> [f64; 6] {
+        let (mut s, p) = (self.deviator(i), self.pressure(i));
+        s.iter_mut().take(3).for_each(|x| *x -= p);
+        s
+    }
+
+    /// Elastic energy of a particle.
+    pub fn elastic_energy(&self, i: usize) -> f64 {
+        let particle = &self.scene.particles[i];
+        let body = &self.scene.bodies[particle.body as usize];
+        let s = self.deviator(i);
+        let square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+        particle.volume * material::elastic_energy(body.bulk_modulus, body.shear_modulus, self.volumetric_strain(i), square)
+    }
+
+    /// The numbers of a quantity of [`QUANTITIES`].
+    fn values(&self, word: &str, i: usize) -> Vec<f64> {
+        let particle = &self.scene.particles[i];
+        match word {
+            "position" => self.position(i).to_vec(),
+            "displacement" => self.vector(Field::Displacement, i).to_vec(),
+            "velocity" => self.vector(Field::Velocity, i).to_vec(),
+            "acceleration" => self.vector(Field::Acceleration, i).to_vec(),
+            "stress" => self.stress(i).to_vec(),
+            "pressure" => vec![self.pressure(i)],
+            "density" => vec![self.scene.bodies[particle.body as usize].density / (1.0 + self.volumetric_strain(i))],
+            "volumetric_strain" => vec![self.volumetric_strain(i)],
+            "internal_energy" => vec![self.scalar(Field::InternalEnergy, i)],
+            "dissipated_energy" => vec![self.scalar(Field::DissipatedEnergy, i)],
+            "body" => vec![f64::from(particle.body)],
+            _ => vec![f64::from(particle.constraint)],
+        }
+    }
+
+    /// A path's number for each of the particles given.
+    pub fn path(&self, path: &str, particles: &[usize]) -> Vec<f64> {
+        let word = path.split('.').next().unwrap_or(path);
+        let snapshot = self.snapshot_of(&[word.to_string()], particles);
+        snapshot.scalar(path).unwrap_or_else(|_| vec![f64::NAN; particles.len()])
+    }
+
+    /// What is stored and painted.
+    pub fn snapshot(&self, quantities: &[String]) -> Snapshot {
+        let all: Vec<usize> = (0..self.count()).collect();
+        self.snapshot_of(quantities, &all)
+    }
+
+    fn snapshot_of(&self, quantities: &[String], particles: &[usize]) -> Snapshot {
+        let column = |name: &String| {
+            let (word, components, _) = quantity(name).ok()?;
+            let values = particles.iter().flat_map(|&i| self.values(word, i)).collect();
+            Some(Column { name: (*word).into(), unit: self.unit(word), components: *components, values })
+        };
+        Snapshot {
+            time: self.time,
+            step: self.step,
+            dimension: self.scene.dimension(),
+            spacing: self.scene.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min),
+            positions: particles.iter().map(|&i| self.position(i)).collect(),
+            columns: quantities.iter().filter_map(column).collect(),
+        }
+    }
+
+    fn unit(&self, word: &str) -> String {
+        let names = self.scene.unit_names();
+        let exponents = match word {
+            "position" | "displacement" => Field::Displacement.unit(),
+            "velocity" => Field::Velocity.unit(),
+            "acceleration" => Field::Acceleration.unit(),
+            "stress" | "pressure" => Field::DeviatoricStress.unit(),
+            "density" => [-3, 1, 0],
+            "internal_energy" | "dissipated_energy" => Field::InternalEnergy.unit(),
+            _ => [0, 0, 0],
+        };
+        unit_text(exponents, names)
+    }
+}
+
+/// Rows of a column put in the order of the particles' numbers.
+fn sorted(column: &[f64], numbers: &[f64]) -> Vec<f64> {
+    let words = column.len() / numbers.len().max(1);
+    let mut out = vec![0.0; column.len()];
+    for (row, &number) in numbers.iter().enumerate() {
+        let place = number as usize * words;
+        out[place..place + words].copy_from_slice(&column[row * words..(row + 1) * words]);
+    }
+    out
+}

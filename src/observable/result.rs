@@ -1,0 +1,94 @@
+//! Numbers found from finished series.
+
+use super::{Kind, Value};
+use crate::scene::file::Observe;
+use std::collections::BTreeMap;
+
+/// A finished run's series: times and columns by name.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    pub times: Vec<f64>,
+    pub columns: BTreeMap<String, Vec<f64>>,
+}
+
+impl Table {
+    /// Times and values of a column, within the observable's window.
+    pub fn window<'a>(&'a self, name: &str, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+        let column = self.columns.get(name).ok_or_else(|| format!("there is no series `{name}`"))?;
+        let [first, last] = typed.between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let pairs = self.times.iter().copied().zip(column.iter().copied());
+        let list: Vec<(f64, f64)> = pairs.filter(|(t, _)| (first..=last).contains(t)).collect();
+        if list.is_empty() { Err(format!("the series `{name}` has no row in the window")) } else { Ok(list) }
+    }
+
+    fn of(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+        self.window(typed.of.as_deref().unwrap_or_default(), typed)
+    }
+}
+
+fn restitution(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let relative = |row: &dyn Fn(&[(f64, f64)]) -> f64| -> Result<f64, String> {
+        let own = row(&table.of(typed)?);
+        match &typed.over {
+            None => Ok(own),
+            Some(other) => Ok(own - row(&table.window(other, typed)?)),
+        }
+    };
+    let before = relative(&|rows| rows[0].1)?;
+    // Bodies ring after they part, so the mean of the last tenth stands for the speed of leaving.
+    let tail = |rows: &[(f64, f64)]| {
+        let count = rows.len().div_ceil(10);
+        rows[rows.len() - count..].iter().map(|r| r.1).sum::<f64>() / count as f64
+    };
+    Ok(-relative(&tail)? / before)
+}
+
+/// Slope of ln(value) against time by least squares.
+fn growth_rate(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let rows: Vec<(f64, f64)> = table.of(typed)?.into_iter().filter(|r| r.1 > 0.0).map(|(t, v)| (t, v.ln())).collect();
+    if rows.len() < 3 {
+        return Err("a growth rate needs at least three rows".into());
+    }
+    let n = rows.len() as f64;
+    let (t, y) = (rows.iter().map(|r| r.0).sum::<f64>() / n, rows.iter().map(|r| r.1).sum::<f64>() / n);
+    let (up, down) = rows.iter().fold((0.0, 0.0), |(u, d), r| (u + (r.0 - t) * (r.1 - y), d + (r.0 - t).powi(2)));
+    Ok(up / down)
+}
+
+pub const RESTITUTION: Kind = Kind {
+    word: "restitution",
+    about: "minus the mean of the last tenth of series `of` (less `over`) over its first value",
+    needs: &["of"],
+    fields: &[],
+    value: Value::Result(restitution),
+};
+
+pub const GROWTH_RATE: Kind = Kind {
+    word: "growth_rate",
+    about: "slope of ln of series `of` within the times `between`",
+    needs: &["of", "between"],
+    fields: &[],
+    value: Value::Result(growth_rate),
+};
+
+pub const RATIO: Kind = Kind {
+    word: "ratio",
+    about: "last value of series `of` over the last of `over`",
+    needs: &["of", "over"],
+    fields: &[],
+    value: Value::Result(|table, typed| {
+        let last = |rows: Vec<(f64, f64)>| rows[rows.len() - 1].1;
+        Ok(last(table.of(typed)?) / last(table.window(typed.over.as_deref().unwrap_or_default(), typed)?))
+    }),
+};
+
+pub const RMS: Kind = Kind {
+    word: "rms",
+    about: "root mean square of series `of` within the times `between`",
+    needs: &["of"],
+    fields: &[],
+    value: Value::Result(|table, typed| {
+        let rows = table.of(typed)?;
+        Ok((rows.iter().map(|r| r.1 * r.1).sum::<f64>() / rows.len() as f64).sqrt())
+    }),
+};

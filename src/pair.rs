@@ -1,0 +1,161 @@
+//! What the loops over neighbours share: separation, mirror images, kernel gradient.
+//! Twin: shaders/lib/pair.wgsl
+
+use crate::smoothing::{Kernel, Scaled};
+use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, Params, State};
+use crate::tensor::{Real, Space};
+
+/// A neighbour as particle a sees it.
+#[derive(Clone, Copy)]
+pub struct Pair<S: Space> {
+    pub b: usize,
+    /// Planes that the neighbour is mirrored in, one bit each.
+    pub image: u32,
+    /// x_a - x_b
+    pub x: S::Vec,
+    pub distance: S::Real,
+    /// Mean smoothing length of the two.
+    pub h: S::Real,
+    /// (dW/dr)/r: times x it is the gradient of W at a.
+    pub gradient: S::Real,
+}
+
+/// Normal of a mirror plane.
+#[inline(always)]
+fn normal<S: Space>(plane: &[S::Real; 4]) -> S::Vec {
+    let mut n = S::Vec::default();
+    for k in 0..S::DIMENSION {
+        n[k] = plane[k];
+    }
+    n
+}
+
+/// Mirrors a vector, a velocity or displacement, in each plane of the mask.
+#[inline(always)]
+pub fn mirror_vector<S: Space>(params: &Params<S::Real>, image: u32, mut v: S::Vec) -> S::Vec {
+    for (k, plane) in params.planes.iter().enumerate() {
+        if image >> k & 1 == 1 {
+            let n = normal::<S>(plane);
+            v = v - n * (S::Real::of(2.0) * S::inner(v, n));
+        }
+    }
+    v
+}
+
+/// Mirrors a point in each plane of the mask.
+#[inline(always)]
+pub fn mirror_point<S: Space>(params: &Params<S::Real>, image: u32, mut x: S::Vec) -> S::Vec {
+    for (k, plane) in params.planes.iter().enumerate() {
+        if image >> k & 1 == 1 {
+            let n = normal::<S>(plane);
+            x = x - n * (S::Real::of(2.0) * (S::inner(x, n) - plane[3]));
+        }
+    }
+    x
+}
+
+/// Mirrors a tensor: H M H with H = 1 - 2 n (x) n.
+#[inline(always)]
+pub fn mirror_tensor<S: Space>(params: &Params<S::Real>, image: u32, mut m: S::Mat) -> S::Mat {
+    for (k, plane) in params.planes.iter().enumerate() {
+        if image >> k & 1 == 1 {
+            let n = normal::<S>(plane);
+            let h = S::mat_identity() - S::outer(n, n) * S::Real::of(2.0);
+            m = S::mat_mat(h, S::mat_mat(m, h));
+        }
+    }
+    m
+}
+
+/// Shortens a separation to the nearest periodic image.
+#[inline(always)]
+fn nearest_image<S: Space>(params: &Params<S::Real>, mut x: S::Vec) -> S::Vec {
+    let period = [params.period_x, params.period_y, params.period_z];
+    for k in 0..S::DIMENSION {
+        if period[k] > S::Real::of(0.0) {
+            x[k] = x[k] - period[k] * (x[k] / period[k]).round();
+        }
+    }
+    x
+}
+
+/// x_a - x_b from reference positions and displacements apart, so that f32 keeps the small difference.
+#[inline(always)]
+pub fn separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
+    let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
+    let particles = &state.particles;
+    let (mut reference, mut displacement) = (particles.reference_position[b], particles.displacement[b]);
+    if image != 0 {
+        reference = mirror_point::<S>(&state.params, image, reference);
+        displacement = mirror_vector::<S>(&state.params, image, displacement);
+    }
+    let x = (particles.reference_position[a] - reference) + (particles.displacement[a] - displacement);
+    if state.method.periodic { nearest_image::<S>(&state.params, x) } else { x }
+}
+
+/// Neighbours that are evaluated together: enough for the widest vector registers.
+const LANES: usize = 8;
+
+/// Calls `visit` for every neighbour of particle a, in the order of its list.
+///
+/// Separations are gathered for [`LANES`] neighbours, then the kernel is evaluated for all of them at once,
+/// which the compiler turns into vector instructions; neighbours beyond the kernel's support get a zero gradient.
+#[inline(always)]
+pub fn for_each_pair<S: Space, K: Kernel>(state: &State<S>, a: usize, mut visit: impl FnMut(Pair<S>)) {
+    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let half = S::Real::of(0.5);
+    let h_a = state.body(a).smoothing_length;
+    for entries in state.neighbors_of(a).chunks(LANES) {
+        let mut x = [S::Vec::default(); LANES];
+        let mut h = [h_a; LANES];
+        let mut square = [S::Real::of(1.0); LANES];
+        for (lane, &entry) in entries.iter().enumerate() {
+            x[lane] = separation(state, a, entry);
+            square[lane] = S::inner(x[lane], x[lane]);
+            if state.method.many_bodies {
+                h[lane] = half * (h_a + state.body((entry & NEIGHBOR_MASK) as usize).smoothing_length);
+            }
+        }
+        let mut distance = [S::Real::default(); LANES];
+        let mut gradient = [S::Real::default(); LANES];
+        for lane in 0..LANES {
+            distance[lane] = square[lane].sqrt();
+            gradient[lane] = kernel.gradient::<K>(distance[lane], h[lane]);
+        }
+        for (lane, &entry) in entries.iter().enumerate() {
+            visit(Pair {
+                b: (entry & NEIGHBOR_MASK) as usize,
+                image: entry >> NEIGHBOR_BITS,
+                x: x[lane],
+                distance: distance[lane],
+                h: h[lane],
+                gradient: gradient[lane],
+            });
+        }
+    }
+}
+
+/// v_b - v_a, the neighbour's velocity mirrored if it is an image.
+#[inline(always)]
+pub fn velocity_difference<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Vec {
+    let velocity = &state.particles.velocity;
+    let mut v_b = velocity[pair.b];
+    if pair.image != 0 {
+        v_b = mirror_vector::<S>(&state.params, pair.image, v_b);
+    }
+    v_b - velocity[a]
+}
+
+/// Weight of a pair: 1 unless a scene weakens the kernel sums between two bodies.
+#[inline(always)]
+pub fn pair_coupling<S: Space>(state: &State<S>, a: usize, b: usize) -> S::Real {
+    if state.method.coupling { state.coupling_of(a, b) } else { S::Real::of(1.0) }
+}
+
+/// Inverse of a moment matrix, or the unit tensor where too few neighbours are left to define one.
+#[inline(always)]
+pub fn safe_inverse<S: Space>(moment: S::Mat) -> S::Mat {
+    let determinant = S::determinant(moment);
+    // A corner particle of a cube keeps an eighth of its moment; below that the correction amplifies noise.
+    if determinant > S::Real::of(0.02) { S::adjugate(moment) * (S::Real::of(1.0) / determinant) } else { S::mat_identity() }
+}

@@ -1,0 +1,206 @@
+//! The one list of fields: a column of numbers for each particle, with its type, unit and meaning.
+//!
+//! From this list come the host columns, the device buffers, checkpoints and the table that `lithosph list`
+//! prints. A field exists in a run only if a pass of that run needs it: see [`crate::step::fields`].
+
+use crate::tensor::{Linear, Space};
+
+/// What one particle stores in a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Type {
+    Integer,
+    Real,
+    Vec,
+    Sym,
+    Mat,
+}
+
+/// How the unit of a field is made of length, mass and time: exponents in that order.
+pub type Unit = [i8; 3];
+
+macro_rules! column {
+    (Integer, $S:ident) => { Vec<u32> };
+    (Real, $S:ident) => { Vec<$S::Real> };
+    (Vec, $S:ident) => { Vec<$S::Vec> };
+    (Sym, $S:ident) => { Vec<$S::Sym> };
+    (Mat, $S:ident) => { Vec<$S::Mat> };
+}
+
+macro_rules! fields {
+    ($($name:ident: $Variant:ident, $kind:ident, $unit:expr, $carried:literal, $about:literal;)*) => {
+        /// Names the fields.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Field { $($Variant),* }
+
+        impl Field {
+            pub const ALL: &'static [Field] = &[$(Field::$Variant),*];
+            /// Name in shaders, files and pictures.
+            pub fn name(self) -> &'static str {
+                match self { $(Field::$Variant => stringify!($name)),* }
+            }
+            pub fn kind(self) -> Type {
+                match self { $(Field::$Variant => Type::$kind),* }
+            }
+            pub fn unit(self) -> Unit {
+                match self { $(Field::$Variant => $unit),* }
+            }
+            pub fn about(self) -> &'static str {
+                match self { $(Field::$Variant => $about),* }
+            }
+            /// Part of the state: reordered with the particles and kept in a checkpoint. The others are
+            /// made anew from the state before they are read.
+            pub fn carried(self) -> bool {
+                match self { $(Field::$Variant => $carried),* }
+            }
+        }
+
+        /// All columns of a run; the ones that it does not need are empty.
+        pub struct Particles<S: Space> { $(#[doc = $about] pub $name: column!($kind, S)),* }
+
+        impl<S: Space> Clone for Particles<S> {
+            fn clone(&self) -> Self {
+                Self { $($name: self.$name.clone()),* }
+            }
+        }
+
+        impl<S: Space> Default for Particles<S> {
+            fn default() -> Self {
+                Self { $($name: Vec::new()),* }
+            }
+        }
+
+        impl<S: Space> Particles<S> {
+            /// Columns of `count` zeros for each of the fields.
+            pub fn allocate(count: usize, fields: &[Field]) -> Self {
+                let length = |field| if fields.contains(&field) { count } else { 0 };
+                Self { $($name: vec![Default::default(); length(Field::$Variant)]),* }
+            }
+            /// Puts particle `order[k]` at place k in every carried column.
+            pub fn reorder(&mut self, order: &[u32]) {
+                $(if $carried && !self.$name.is_empty() {
+                    self.$name = order.iter().map(|&k| self.$name[k as usize]).collect();
+                })*
+            }
+            /// A column as the bytes that a storage buffer of the same precision holds.
+            pub fn bytes(&self, field: Field) -> &[u8] {
+                match field { $(Field::$Variant => bytemuck::cast_slice(&self.$name)),* }
+            }
+            /// Overwrites a column with bytes of the same length.
+            pub fn bytes_mut(&mut self, field: Field) -> &mut [u8] {
+                match field { $(Field::$Variant => bytemuck::cast_slice_mut(&mut self.$name)),* }
+            }
+            /// Fields that hold a column.
+            pub fn present(&self) -> Vec<Field> {
+                let mut list = Vec::new();
+                $(if !self.$name.is_empty() { list.push(Field::$Variant); })*
+                list
+            }
+        }
+    };
+}
+
+const NONE: Unit = [0, 0, 0];
+const LENGTH: Unit = [1, 0, 0];
+const VELOCITY: Unit = [1, 0, -1];
+const ACCELERATION: Unit = [1, 0, -2];
+const RATE: Unit = [0, 0, -1];
+const STRESS: Unit = [-1, 1, -2];
+const STRESS_RATE: Unit = [-1, 1, -3];
+const SPECIFIC_STRESS: Unit = [5, -1, -2];
+const SPECIFIC_ENERGY: Unit = [2, 0, -2];
+const SPECIFIC_POWER: Unit = [2, 0, -3];
+
+fields! {
+    number: Number, Integer, NONE, true, "number given when the scene was packed; never changes";
+    body: Body, Integer, NONE, true, "index of the particle's body";
+    constraint: Constraint, Integer, NONE, true, "index of the boundary condition that holds the particle, plus 1; 0 if free";
+    reference_position: ReferencePosition, Vec, LENGTH, true, "position when the scene was packed";
+    reference_volume: ReferenceVolume, Real, [3, 0, 0], true, "volume when unstressed (area in 2D, length in 1D)";
+    displacement: Displacement, Vec, LENGTH, true, "position less the reference position";
+    displacement_carry: DisplacementCarry, Vec, LENGTH, true, "digits that f32 lost in the displacement's last sum";
+    velocity: Velocity, Vec, VELOCITY, true, "velocity";
+    velocity_carry: VelocityCarry, Vec, VELOCITY, true, "digits that f32 lost in the velocity's last sum";
+    acceleration: Acceleration, Vec, ACCELERATION, true, "force over mass, before constraints";
+    volumetric_strain: VolumetricStrain, Real, NONE, true, "reference density over density, minus 1";
+    deviatoric_stress: DeviatoricStress, Sym, STRESS, true, "stress less its mean";
+    internal_energy: InternalEnergy, Real, SPECIFIC_ENERGY, true, "internal energy per mass";
+    dissipated_energy: DissipatedEnergy, Real, SPECIFIC_ENERGY, true, "energy per mass that viscosity has turned into heat";
+    smoothed_velocity: SmoothedVelocity, Vec, VELOCITY, false, "velocity averaged over neighbours (XSPH)";
+    velocity_gradient: VelocityGradient, Mat, RATE, true, "dv_i/dx_j";
+    correction: Correction, Mat, NONE, false, "inverse of the first moment of the kernel gradient";
+    specific_stress: SpecificStress, Sym, SPECIFIC_STRESS, false, "stress over density squared";
+    corrected_stress: CorrectedStress, Mat, STRESS, false, "stress times the gradient correction";
+    artificial_pressure: ArtificialPressure, Real, SPECIFIC_STRESS, false, "Monaghan's artificial stress, scalar form, over density squared";
+    artificial_stress: ArtificialStress, Sym, SPECIFIC_STRESS, false, "Monaghan's artificial stress, principal-stress form, over density squared";
+    volumetric_strain_rate: VolumetricStrainRate, Real, RATE, false, "rate of the volumetric strain";
+    deviatoric_stress_rate: DeviatoricStressRate, Sym, STRESS_RATE, false, "rate of the deviatoric stress, Jaumann";
+    internal_power: InternalPower, Real, SPECIFIC_POWER, true, "rate of the internal energy";
+    dissipated_power: DissipatedPower, Real, SPECIFIC_POWER, true, "rate of the dissipated energy";
+    displacement_start: DisplacementStart, Vec, LENGTH, false, "displacement when the Runge-Kutta step began";
+    velocity_start: VelocityStart, Vec, VELOCITY, false, "velocity when the Runge-Kutta step began";
+    volumetric_strain_start: VolumetricStrainStart, Real, NONE, false, "volumetric strain when the Runge-Kutta step began";
+    deviatoric_stress_start: DeviatoricStressStart, Sym, STRESS, false, "deviatoric stress when the Runge-Kutta step began";
+    internal_energy_start: InternalEnergyStart, Real, SPECIFIC_ENERGY, false, "internal energy when the Runge-Kutta step began";
+    dissipated_energy_start: DissipatedEnergyStart, Real, SPECIFIC_ENERGY, false, "dissipated energy when the Runge-Kutta step began";
+    displacement_sum: DisplacementSum, Vec, VELOCITY, false, "weighted sum of the stages' rates of displacement";
+    velocity_sum: VelocitySum, Vec, ACCELERATION, false, "weighted sum of the stages' accelerations";
+    volumetric_strain_sum: VolumetricStrainSum, Real, RATE, false, "weighted sum of the stages' volumetric strain rates";
+    deviatoric_stress_sum: DeviatoricStressSum, Sym, STRESS_RATE, false, "weighted sum of the stages' deviatoric stress rates";
+    internal_energy_sum: InternalEnergySum, Real, SPECIFIC_POWER, false, "weighted sum of the stages' internal powers";
+    dissipated_energy_sum: DissipatedEnergySum, Real, SPECIFIC_POWER, false, "weighted sum of the stages' dissipated powers";
+    listed_displacement: ListedDisplacement, Vec, LENGTH, false, "displacement when the neighbour list was last built";
+    cell: Cell, Integer, NONE, false, "index of the cell that holds the particle";
+    neighbor_count: NeighborCount, Integer, NONE, false, "number of entries in the particle's neighbour list";
+}
+
+impl Type {
+    /// 32- or 64-bit words that one particle takes.
+    pub fn words<S: Space>(self) -> usize {
+        match self {
+            Type::Integer | Type::Real => 1,
+            Type::Vec => S::Vec::LENGTH,
+            Type::Sym => S::Sym::LENGTH,
+            Type::Mat => S::Mat::LENGTH,
+        }
+    }
+
+    /// The same for a dimension known only at run time.
+    pub fn words_in(self, dimension: usize) -> usize {
+        use crate::tensor::{Line, Plane, Solid};
+        match dimension {
+            1 => self.words::<Line<f32>>(),
+            2 => self.words::<Plane<f32>>(),
+            _ => self.words::<Solid<f32>>(),
+        }
+    }
+}
+
+/// A unit in words: "m", "kg", "s" replaced by the three names given.
+pub fn unit_text(unit: Unit, names: [&str; 3]) -> String {
+    let part = |k: usize| match unit[k] {
+        0 => None,
+        1 => Some(names[k].to_string()),
+        power => Some(format!("{}^{power}", names[k])),
+    };
+    let parts: Vec<String> = (0..3).filter_map(part).collect();
+    if parts.is_empty() { "1".into() } else { parts.join(" ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tensor::Plane;
+
+    #[test]
+    fn only_the_named_fields_take_memory() {
+        let particles = Particles::<Plane<f32>>::allocate(10, &[Field::Velocity, Field::Number]);
+        assert_eq!(particles.present(), [Field::Number, Field::Velocity]);
+        assert_eq!(particles.bytes(Field::Velocity).len(), 80);
+    }
+
+    #[test]
+    fn units_read_as_words() {
+        assert_eq!(unit_text(STRESS, ["m", "kg", "s"]), "m^-1 kg s^-2");
+        assert_eq!(unit_text(NONE, ["m", "kg", "s"]), "1");
+    }
+}

@@ -1,0 +1,41 @@
+//! Cell of each particle and number of particles of each cell. Twin: shaders/pass/bin_cells.wgsl
+
+use super::Stage;
+use crate::state::{Params, State};
+use crate::tensor::{Real, Space};
+
+/// Cell coordinates of a point. Points outside the grid belong to the cell at its edge: two points nearer than
+/// a cell are then still in the same or in adjacent cells. A periodic axis wraps.
+#[inline(always)]
+pub fn cell_of<S: Space>(params: &Params<S::Real>, x: S::Vec) -> [u32; 3] {
+    let origin = [params.origin_x, params.origin_y, params.origin_z];
+    let size = [params.cell_x, params.cell_y, params.cell_z];
+    let period = [params.period_x, params.period_y, params.period_z];
+    let cells = [params.cells_x, params.cells_y, params.cells_z];
+    let mut cell = [0; 3];
+    for k in 0..S::DIMENSION {
+        let mut distance = x[k] - origin[k];
+        if period[k] > S::Real::of(0.0) {
+            distance -= period[k] * (distance / period[k]).floor();
+        }
+        let last = S::Real::of(f64::from(cells[k] - 1));
+        cell[k] = (distance / size[k]).floor().max(S::Real::of(0.0)).min(last).f64() as u32;
+    }
+    cell
+}
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 || state.clock.rebuild == 0 {
+        return;
+    }
+    let params = state.params;
+    let mut cells = std::mem::take(&mut state.particles.cell);
+    super::write(&mut cells, |i, slot| {
+        let [x, y, z] = cell_of::<S>(&params, state.position(i));
+        *slot = (z * params.cells_y + y) * params.cells_x + x;
+    });
+    for &cell in &cells {
+        state.cell_count[cell as usize] += 1;
+    }
+    state.particles.cell = cells;
+}

@@ -1,0 +1,87 @@
+//! Ends a step: advances the clock, finds the next step, whether the neighbour list still holds, and faults.
+//! Twin: shaders/pass/bound_time_step.wgsl
+//!
+//! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
+
+use super::Stage;
+use crate::state::{Fault, REDUCTION_BLOCK, State};
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut blocks = std::mem::take(&mut state.block_bound);
+    super::write(&mut blocks, |block, slot| {
+        let first = block * REDUCTION_BLOCK;
+        let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
+        *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, bound_of(state, a)));
+    });
+    let bound = blocks.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
+    state.block_bound = blocks;
+    clock(state, bound);
+}
+
+#[inline(always)]
+fn larger<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
+    [a[0].max(b[0]), a[1].max(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+}
+
+/// Rate, squared displacement since the list was built, squared speed, fault of one particle.
+fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
+    let (particles, params, body) = (&state.particles, &state.params, state.body(a));
+    let (h, part) = (body.smoothing_length, S::Real::of(0.6));
+    let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
+    let compression = S::trace(particles.velocity_gradient[a]).abs();
+    let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
+    let pull = S::inner(particles.acceleration[a], particles.acceleration[a]);
+    let rate = (signal / h).max((pull.sqrt() / h).sqrt());
+    let moved = particles.displacement[a] - particles.listed_displacement[a];
+    let (moved, speed) = (S::inner(moved, moved), S::inner(particles.velocity[a], particles.velocity[a]));
+    let finite = (pull + moved + speed + compression).is_finite();
+    let fault = if !finite {
+        S::Real::of(f64::from(Fault::NotFinite as u32))
+    } else if one + particles.volumetric_strain[a] <= zero {
+        S::Real::of(f64::from(Fault::Inverted as u32))
+    } else {
+        zero
+    };
+    [rate, moved, speed, fault]
+}
+
+fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
+    let (params, clock) = (&state.params, &mut state.clock);
+    // The first call of a segment finds no step behind it.
+    if clock.step > S::Real::of(0.0) {
+        let corrected = clock.step - clock.elapsed_carry;
+        let total = clock.elapsed + corrected;
+        clock.elapsed_carry = (total - clock.elapsed) - corrected;
+        clock.elapsed = total;
+        clock.steps_left -= 1;
+        clock.steps_done += 1;
+    }
+    if clock.rebuild == 1 {
+        clock.lists_built += 1;
+    }
+    if clock.fault == 0 {
+        clock.fault = bound[3].f64() as u32;
+    }
+    let left = clock.duration - clock.elapsed;
+    let step = if params.fixed_step > S::Real::of(0.0) { params.fixed_step } else { params.cfl / bound[0] };
+    // Less than this is rounding of the sum of steps, not time left.
+    let nothing = S::Real::of(1e-5) * step;
+    if clock.fault != 0 || clock.steps_left == 0 || left <= nothing {
+        clock.running = 0;
+        return;
+    }
+    // The last two steps share what is left, so that none is a sliver.
+    clock.step = if left <= step * S::Real::of(1.00001) {
+        left
+    } else if left < S::Real::of(2.0) * step && params.fixed_step == S::Real::of(0.0) {
+        left * S::Real::of(0.5)
+    } else {
+        step
+    };
+    let ahead = bound[1].sqrt() + bound[2].sqrt() * clock.step;
+    clock.rebuild = u32::from(ahead > params.slack);
+}

@@ -1,0 +1,30 @@
+//! Inverse of K_a = sum V_b (x_b - x_a) (x) grad_a W_ab (Bonet & Lok 1999).
+//! Twin: shaders/pass/correct_gradient.wgsl
+
+use super::Stage;
+use crate::pair::{for_each_pair, pair_coupling, safe_inverse};
+use crate::smoothing::Kernel;
+use crate::smoothing::with_kernel;
+use crate::state::State;
+use crate::tensor::Space;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut corrections = std::mem::take(&mut state.particles.correction);
+    with_kernel!(state.method.smoothing, K => {
+        super::write(&mut corrections, |a, slot| *slot = safe_inverse::<S>(moment::<S, K>(state, a)));
+    });
+    state.particles.correction = corrections;
+}
+
+#[inline(always)]
+fn moment<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+    let mut moment = S::Mat::default();
+    for_each_pair::<S, K>(state, a, |pair| {
+        let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+        moment = moment - S::outer(pair.x, pair.x * weight);
+    });
+    moment
+}

@@ -1,0 +1,19 @@
+//! The velocity filter: what XSPH became in Fuller's code. It dissipates, and it stops a rotating disc.
+//! Twin: shaders/pass/filter_velocity.wgsl
+
+use super::Stage;
+use crate::state::State;
+use crate::tensor::Space;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut velocity = std::mem::take(&mut state.particles.velocity);
+    super::write(&mut velocity, |a, slot| {
+        if !state.method.constraints || state.particles.constraint[a] == 0 {
+            *slot = state.particles.smoothed_velocity[a];
+        }
+    });
+    state.particles.velocity = velocity;
+}

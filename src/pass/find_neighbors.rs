@@ -1,0 +1,113 @@
+//! Lists the particles within reach of each particle, mirror images included, in cell order.
+//! Twin: shaders/pass/find_neighbors.wgsl
+
+use super::Stage;
+use super::bin_cells::cell_of;
+use crate::pair::{mirror_point, separation};
+use crate::state::{Fault, NEIGHBOR_BITS, State};
+use crate::tensor::{Real, Space};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 || state.clock.rebuild == 0 {
+        return;
+    }
+    let capacity = state.params.list_capacity as usize;
+    let mut neighbors = std::mem::take(&mut state.neighbors);
+    let mut counts = std::mem::take(&mut state.particles.neighbor_count);
+    let mut listed = std::mem::take(&mut state.particles.listed_displacement);
+    let fault = AtomicU32::new(0);
+    neighbors
+        .par_chunks_mut(capacity)
+        .zip(counts.par_iter_mut())
+        .zip(listed.par_iter_mut())
+        .enumerate()
+        .with_min_len(64)
+        .for_each(|(a, ((row, count), place))| {
+            *place = state.particles.displacement[a];
+            *count = list_one(state, a, row).unwrap_or_else(|| {
+                fault.store(Fault::ListFull as u32, Ordering::Relaxed);
+                0
+            });
+        });
+    state.neighbors = neighbors;
+    state.particles.neighbor_count = counts;
+    state.particles.listed_displacement = listed;
+    if fault.into_inner() != 0 {
+        state.clock.fault = Fault::ListFull as u32;
+    }
+}
+
+/// Fills one particle's row; None if it is too short.
+fn list_one<S: Space>(state: &State<S>, a: usize, row: &mut [u32]) -> Option<u32> {
+    let params = &state.params;
+    let x = state.position(a);
+    let mut found = 0;
+    for image in 0..1u32 << params.plane_count {
+        let center = mirror_point::<S>(params, image, x);
+        if image != 0 {
+            // The image of every particle within reach of a is near a's own image only if a is near the plane.
+            let apart = x - center;
+            let limit = S::Real::of(2.0) * params.reach * S::Real::of(f64::from(params.plane_count)).sqrt();
+            if S::inner(apart, apart) > limit * limit {
+                continue;
+            }
+        }
+        visit_cells::<S>(state, center, |b| {
+            let entry = b | image << NEIGHBOR_BITS;
+            if image == 0 && b as usize == a {
+                return Some(());
+            }
+            let apart = separation(state, a, entry);
+            if S::inner(apart, apart) >= params.reach * params.reach {
+                return Some(());
+            }
+            if state.method.coupling && state.coupling_of(a, b as usize) == S::Real::of(0.0) {
+                return Some(());
+            }
+            *row.get_mut(found)? = entry;
+            found += 1;
+            Some(())
+        })?;
+    }
+    Some(found as u32)
+}
+
+/// Calls `visit` with every particle of the cells around a point, until it returns None.
+#[inline(always)]
+fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl FnMut(u32) -> Option<()>) -> Option<()> {
+    let params = &state.params;
+    let [cx, cy, cz] = cell_of::<S>(params, center);
+    let range = |c: u32, cells: u32, period: S::Real, axis: usize| {
+        if axis >= S::DIMENSION {
+            return (0, 0);
+        }
+        let wraps = period > S::Real::of(0.0);
+        let low = if c == 0 && !wraps { 0 } else { c as i32 - 1 };
+        let high = if c + 1 == cells && !wraps { c as i32 } else { c as i32 + 1 };
+        (low, high)
+    };
+    let wrap = |c: i32, cells: u32| c.rem_euclid(cells as i32) as u32;
+    let (x0, x1) = range(cx, params.cells_x, params.period_x, 0);
+    let (y0, y1) = range(cy, params.cells_y, params.period_y, 1);
+    let (z0, z1) = range(cz, params.cells_z, params.period_z, 2);
+    for z in z0..=z1 {
+        for y in y0..=y1 {
+            let row = (wrap(z, params.cells_z) * params.cells_y + wrap(y, params.cells_y)) * params.cells_x;
+            // Cells along x are contiguous, so a row is one range unless the box wraps along x.
+            let (mut first, last) = (x0, x1);
+            while first <= last {
+                let start = wrap(first, params.cells_x);
+                let width = (last - first).min((params.cells_x - 1 - start) as i32) as u32;
+                let cells = (row + start) as usize;
+                let particles = state.cell_start[cells] as usize..state.cell_start[cells + width as usize + 1] as usize;
+                for &b in &state.cell_particles[particles] {
+                    visit(b)?;
+                }
+                first += width as i32 + 1;
+            }
+        }
+    }
+    Some(())
+}

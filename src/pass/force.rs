@@ -1,0 +1,150 @@
+//! Acceleration of each particle, Fuller (2.59) with the viscosity's sign mended:
+//!
+//! a_a = sum m_b (sigma_a/rho_a^2 + sigma_b/rho_b^2 - Pi_ab + (R_a + R_b) f^n) grad_a W_ab,
+//!
+//! or, adjoint to the corrected velocity gradient,
+//!
+//! a_a = (1/rho_a) sum V_b (sigma_a K_a^-1 + sigma_b K_b^-1) grad_a W_ab + the terms of Pi and R as above.
+//!
+//! Twin: shaders/pass/force.wgsl
+
+use super::Stage;
+use crate::pair::{Pair, for_each_pair, mirror_tensor, pair_coupling, velocity_difference};
+use crate::scene::file::{ArtificialForm, Gradient};
+use crate::smoothing::with_kernel;
+use crate::smoothing::{Kernel, Scaled};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+/// What the sum over neighbours gives.
+#[derive(Clone, Copy)]
+struct Sums<S: Space> {
+    acceleration: S::Vec,
+    internal_power: S::Real,
+    dissipated_power: S::Real,
+}
+
+impl<S: Space> Default for Sums<S> {
+    fn default() -> Self {
+        let zero = S::Real::of(0.0);
+        Self { acceleration: S::Vec::default(), internal_power: zero, dissipated_power: zero }
+    }
+}
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    if !(state.method.internal_energy || state.method.dissipated_energy) {
+        with_kernel!(state.method.smoothing, K => {
+            super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a).acceleration);
+        });
+        state.particles.acceleration = accelerations;
+        return;
+    }
+    let mut sums = vec![Sums::<S>::default(); accelerations.len()];
+    with_kernel!(state.method.smoothing, K => super::write(&mut sums, |a, slot| *slot = sum::<S, K>(state, a)));
+    for (a, sum) in sums.iter().enumerate() {
+        accelerations[a] = sum.acceleration;
+        if state.method.internal_energy {
+            state.particles.internal_power[a] = sum.internal_power;
+        }
+        if state.method.dissipated_energy {
+            state.particles.dissipated_power[a] = sum.dissipated_power;
+        }
+    }
+    state.particles.acceleration = accelerations;
+}
+
+#[inline(always)]
+fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> Sums<S> {
+    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let method = &state.method;
+    let half = S::Real::of(0.5);
+    let mut sums = Sums::default();
+    for_each_pair::<S, K>(state, a, |pair| {
+        let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+        let gradient = pair.x * pair.gradient;
+        let mut force = if method.gradient == Gradient::Adjoint {
+            let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) / state.density(a);
+            S::mat_vec(corrected_stress(state, a, &pair), gradient) * weight
+        } else {
+            S::mat_vec(specific_stress(state, a, &pair), gradient) * mass
+        };
+        if method.artificial_stress.is_some() {
+            let weight = kernel.weight::<K>(pair.distance, pair.h) / state.params.artificial_weight;
+            force += artificial_stress(state, a, &pair, gradient) * (mass * power(weight, state.params.artificial_exponent));
+        }
+        let mut friction = S::Vec::default();
+        if method.viscosity {
+            friction = gradient * (-mass * viscosity(state, a, &pair));
+            force += friction;
+        }
+        sums.acceleration += force;
+        if method.internal_energy || method.dissipated_energy {
+            let v_ba = velocity_difference(state, a, &pair);
+            sums.internal_power += half * S::inner(v_ba, force);
+            sums.dissipated_power += half * S::inner(v_ba, friction);
+        }
+    });
+    sums
+}
+
+/// sigma_a/rho_a^2 + sigma_b/rho_b^2
+#[inline(always)]
+fn specific_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Mat {
+    let stress = &state.particles.specific_stress;
+    if pair.image == 0 {
+        return S::mat_of_sym(stress[a] + stress[pair.b]);
+    }
+    S::mat_of_sym(stress[a]) + mirror_tensor::<S>(&state.params, pair.image, S::mat_of_sym(stress[pair.b]))
+}
+
+/// sigma_a K_a^-1 + sigma_b K_b^-1
+#[inline(always)]
+fn corrected_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Mat {
+    let stress = &state.particles.corrected_stress;
+    if pair.image == 0 {
+        return stress[a] + stress[pair.b];
+    }
+    stress[a] + mirror_tensor::<S>(&state.params, pair.image, stress[pair.b])
+}
+
+/// (R_a + R_b) grad_a W_ab
+#[inline(always)]
+fn artificial_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>, gradient: S::Vec) -> S::Vec {
+    let particles = &state.particles;
+    if state.method.artificial_stress == Some(ArtificialForm::Scalar) {
+        return gradient * (particles.artificial_pressure[a] + particles.artificial_pressure[pair.b]);
+    }
+    let stress = &particles.artificial_stress;
+    if pair.image == 0 {
+        return S::sym_vec(stress[a] + stress[pair.b], gradient);
+    }
+    let image = mirror_tensor::<S>(&state.params, pair.image, S::mat_of_sym(stress[pair.b]));
+    S::mat_vec(S::mat_of_sym(stress[a]) + image, gradient)
+}
+
+/// Pi_ab of Monaghan, Fuller (2.60): only while the two approach.
+#[inline(always)]
+fn viscosity<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Real {
+    let params = &state.params;
+    let approach = -S::inner(velocity_difference(state, a, pair), pair.x);
+    let square = pair.distance * pair.distance + params.softening * pair.h * pair.h;
+    let mu = (pair.h * approach / square).min(S::Real::of(0.0));
+    let half = S::Real::of(0.5);
+    let sound_speed = half * (state.body(a).sound_speed + state.body(pair.b).sound_speed);
+    let density = half * (state.density(a) + state.density(pair.b));
+    (params.beta * mu - params.alpha * sound_speed) * mu / density
+}
+
+/// Small whole powers, without the cost of a general one.
+#[inline(always)]
+fn power<R: Real>(base: R, exponent: u32) -> R {
+    let mut product = R::of(1.0);
+    for _ in 0..exponent {
+        product = product * base;
+    }
+    product
+}

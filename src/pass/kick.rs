@@ -1,0 +1,80 @@
+//! v += (step/2) a, then the boundary conditions. Twin: shaders/pass/kick.wgsl
+
+use super::{Stage, compensated_add};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let half = S::Real::of(0.5) * state.clock.step;
+    let time = state.clock.start + state.clock.elapsed + S::Real::of(stage.time) * state.clock.step;
+    let mut velocity = std::mem::take(&mut state.particles.velocity);
+    if state.method.compensated {
+        let mut carry = std::mem::take(&mut state.particles.velocity_carry);
+        for (a, (v, c)) in velocity.iter_mut().zip(&mut carry).enumerate() {
+            compensated_add::<S>(v, c, acceleration(state, a, time) * half);
+            *v = prescribe(state, a, *v, time);
+        }
+        state.particles.velocity_carry = carry;
+    } else {
+        super::write(&mut velocity, |a, v| {
+            *v += acceleration(state, a, time) * half;
+            *v = prescribe(state, a, *v, time);
+        });
+    }
+    state.particles.velocity = velocity;
+    add_energy(state, half);
+}
+
+/// Acceleration by neighbours, by the body force and by a prescribed force.
+#[inline(always)]
+pub fn acceleration<S: Space>(state: &State<S>, a: usize, time: S::Real) -> S::Vec {
+    let params = &state.params;
+    let mut sum = state.particles.acceleration[a];
+    if state.method.body_force {
+        let g = [params.body_force_x, params.body_force_y, params.body_force_z];
+        for k in 0..S::DIMENSION {
+            sum[k] += g[k];
+        }
+    }
+    if state.method.constraints && state.particles.constraint[a] != 0 {
+        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+        let factor = state.course_factor(constraint, time);
+        let vector = [constraint.x, constraint.y, constraint.z];
+        for k in 0..S::DIMENSION {
+            if constraint.prescribed >> k & 1 == 0 {
+                sum[k] += vector[k] * factor;
+            }
+        }
+    }
+    sum
+}
+
+/// Replaces the components of a velocity that a boundary condition prescribes.
+#[inline(always)]
+pub fn prescribe<S: Space>(state: &State<S>, a: usize, mut v: S::Vec, time: S::Real) -> S::Vec {
+    if state.method.constraints && state.particles.constraint[a] != 0 {
+        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+        let factor = state.course_factor(constraint, time);
+        let vector = [constraint.x, constraint.y, constraint.z];
+        for k in 0..S::DIMENSION {
+            if constraint.prescribed >> k & 1 == 1 {
+                v[k] = vector[k] * factor;
+            }
+        }
+    }
+    v
+}
+
+/// Energies grow at the same two moments as the velocity, with the force of that moment.
+fn add_energy<S: Space>(state: &mut State<S>, half: S::Real) {
+    let particles = &mut state.particles;
+    for (energy, power) in particles.internal_energy.iter_mut().zip(&particles.internal_power) {
+        *energy += *power * half;
+    }
+    for (energy, power) in particles.dissipated_energy.iter_mut().zip(&particles.dissipated_power) {
+        *energy += *power * half;
+    }
+}

@@ -1,0 +1,160 @@
+//! Passes: the smallest pieces of a step, each a shader `shaders/pass/x.wgsl` and its twin `src/pass/x.rs`.
+//!
+//! A pass writes only to particle (or cell, or block) i. Twins have the shape of their shader without its
+//! machinery: the loop over i is [`write`], which runs on all cores.
+
+mod bin_cells;
+mod bound_time_step;
+mod correct_gradient;
+mod drift;
+mod fill_cells;
+mod filter_velocity;
+mod find_neighbors;
+mod force;
+mod kick;
+mod reorder;
+mod runge_kutta;
+mod scan_cells;
+mod smooth_velocity;
+mod sort_cells;
+mod specific_stress;
+mod strain_rate;
+mod stress;
+mod stress_rate;
+mod sum_density;
+
+use crate::state::State;
+use crate::tensor::Space;
+use rayon::prelude::*;
+
+/// What one dispatch runs over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// One invocation a particle.
+    Particles,
+    /// The same, but the pass binds the neighbour list, and so is dispatched for each of its parts.
+    Listed,
+    /// One invocation a cell.
+    Cells,
+    /// One workgroup of 256 for each [`crate::state::SCAN_BLOCK`] cells.
+    ScanBlocks,
+    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] particles.
+    ReductionBlocks,
+    /// One workgroup of 256.
+    One,
+}
+
+/// An entry point of a pass's shader and what it runs over.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    pub name: &'static str,
+    pub domain: Domain,
+}
+
+/// Numbers that tell calls of the same pass in one step apart; `override` constants of the shader.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stage {
+    /// Time at which prescribed velocities are taken, as a fraction of the step.
+    pub time: f64,
+    /// Runge-Kutta: weight of this stage's rate in the sum.
+    pub weight: f64,
+    /// The next state is start + step (`of_sum` sum + `of_rate` rate).
+    pub of_sum: f64,
+    pub of_rate: f64,
+    pub first: bool,
+    pub last: bool,
+}
+
+impl Stage {
+    /// Name and value of every override constant; a shader takes those that it declares.
+    pub fn constants(&self) -> [(&'static str, f64); 6] {
+        [
+            ("stage_time", self.time),
+            ("stage_weight", self.weight),
+            ("stage_of_sum", self.of_sum),
+            ("stage_of_rate", self.of_rate),
+            ("stage_first", f64::from(u8::from(self.first))),
+            ("stage_last", f64::from(u8::from(self.last))),
+        ]
+    }
+}
+
+/// A pass at its place in the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Call {
+    pub pass: Pass,
+    pub stage: Stage,
+}
+
+macro_rules! passes {
+    ($($word:ident: $name:ident, [$($entry:ident: $domain:ident),*], $about:literal;)*) => {
+        /// Names the passes.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Pass { $($name),* }
+
+        impl Pass {
+            pub const ALL: &'static [Pass] = &[$(Pass::$name),*];
+            /// File stem, pipeline label, name in timings.
+            pub fn name(self) -> &'static str {
+                match self { $(Pass::$name => stringify!($word)),* }
+            }
+            pub fn about(self) -> &'static str {
+                match self { $(Pass::$name => $about),* }
+            }
+            /// The shader twin's source, before composition.
+            pub fn source(self) -> &'static str {
+                match self {
+                    $(Pass::$name => include_str!(concat!("../../shaders/pass/", stringify!($word), ".wgsl"))),*
+                }
+            }
+            pub fn entries(self) -> &'static [Entry] {
+                match self {
+                    $(Pass::$name => &[$(Entry { name: stringify!($entry), domain: Domain::$domain }),*]),*
+                }
+            }
+            /// Runs the twin.
+            pub fn run<S: Space>(self, state: &mut State<S>, stage: Stage) {
+                match self { $(Pass::$name => $word::run(state, stage)),* }
+            }
+        }
+    };
+}
+
+passes! {
+    bin_cells: BinCells, [main: Particles], "counts the particles of each cell";
+    scan_cells: ScanCells, [blocks: ScanBlocks, totals: One, offsets: ScanBlocks], "prefix sum of the counts: where each cell's particles begin";
+    fill_cells: FillCells, [main: Particles], "puts each particle into its cell";
+    sort_cells: SortCells, [main: Cells], "orders the particles of a cell, so that sums do not depend on the threads";
+    reorder: Reorder, [main: Particles], "moves all carried fields into cell order";
+    find_neighbors: FindNeighbors, [main: Listed], "lists the particles within reach, mirror images included";
+    sum_density: SumDensity, [main: Listed], "density from the masses around, Fuller (2.22)";
+    strain_rate: StrainRate, [main: Listed], "velocity gradient, Fuller (2.14)";
+    stress: Stress, [main: Particles], "advances volumetric strain and deviatoric stress by a step";
+    stress_rate: StressRate, [main: Particles], "rates of volumetric strain and deviatoric stress, Fuller (2.21), (2.45)";
+    correct_gradient: CorrectGradient, [main: Listed], "inverse of the first moment of the kernel gradient";
+    specific_stress: SpecificStress, [main: Particles], "stress in the form that the pair force sums, and the artificial stress";
+    force: Force, [main: Listed], "acceleration, Fuller (2.59) with the sign of the viscosity mended";
+    smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";
+    filter_velocity: FilterVelocity, [main: Particles], "puts the smoothed velocity in the velocity's place";
+    kick: Kick, [main: Particles], "advances the velocity by half a step";
+    drift: Drift, [main: Particles], "advances the displacement by half a step";
+    runge_kutta: RungeKutta, [main: Particles], "adds a stage's rates and sets the next stage's state";
+    bound_time_step: BoundTimeStep, [blocks: ReductionBlocks, advance: One], "advances the clock; finds the next step, whether the list still holds, and faults";
+}
+
+/// Sets every element of a column from its index and the state, on all cores. The column must have been
+/// taken out of the state: a pass reads its neighbours' values of other columns, never of the one it writes.
+pub(crate) fn write<T: Send>(column: &mut [T], value: impl Fn(usize, &mut T) + Sync) {
+    // Small enough to balance two cores on a thousand particles, large enough to hide the scheduling.
+    const GRAIN: usize = 128;
+    column.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(i, slot)| value(i, slot));
+}
+
+/// Sum that hands back what rounding dropped. The shader hides the intermediate sum from the optimiser.
+#[inline(always)]
+pub(crate) fn compensated_add<S: Space>(sum: &mut S::Vec, carry: &mut S::Vec, increment: S::Vec) {
+    let corrected = increment - *carry;
+    let total = *sum + corrected;
+    *carry = (total - *sum) - corrected;
+    *sum = total;
+}

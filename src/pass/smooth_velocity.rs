@@ -1,0 +1,33 @@
+//! Velocity averaged over neighbours, Fuller (3.2): v_a + weight sum (m_b/rho_ab)(v_b - v_a) W_ab.
+//! Monaghan's XSPH moves the positions with it; [`super::filter_velocity`] puts it in the velocity's place.
+//! Twin: shaders/pass/smooth_velocity.wgsl
+
+use super::Stage;
+use crate::pair::{for_each_pair, pair_coupling, velocity_difference};
+use crate::smoothing::with_kernel;
+use crate::smoothing::{Kernel, Scaled};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut smoothed = std::mem::take(&mut state.particles.smoothed_velocity);
+    with_kernel!(state.method.smoothing, K => {
+        super::write(&mut smoothed, |a, slot| *slot = smooth::<S, K>(state, a));
+    });
+    state.particles.smoothed_velocity = smoothed;
+}
+
+#[inline(always)]
+fn smooth<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Vec {
+    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let mut sum = S::Vec::default();
+    for_each_pair::<S, K>(state, a, |pair| {
+        let density = S::Real::of(0.5) * (state.density(a) + state.density(pair.b));
+        let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+        sum += velocity_difference(state, a, &pair) * (mass / density * kernel.weight::<K>(pair.distance, pair.h));
+    });
+    state.particles.velocity[a] + sum * state.params.smoothing_weight
+}

@@ -1,0 +1,54 @@
+//! Velocity gradient L_a. Twin: shaders/pass/strain_rate.wgsl
+//!
+//! Plain: L_a = (1/rho_a) sum m_b (v_b - v_a) (x) grad_a W_ab. Fuller (2.14) has m_b/rho_b inside the sum; with
+//! the density outside, the trace is exactly his continuity equation (2.21) and the stress power is exactly
+//! the work of his force (2.59).
+//!
+//! Corrected: weights V_b, and the sum is multiplied by the inverse of sum V_b (x_b - x_a) (x) grad_a W_ab,
+//! which makes it exact for linear velocity fields (Bonet & Lok 1999).
+
+use super::Stage;
+use crate::pair::{for_each_pair, pair_coupling, safe_inverse, velocity_difference};
+use crate::scene::file::Gradient;
+use crate::smoothing::Kernel;
+use crate::smoothing::with_kernel;
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let corrected = state.method.gradient != Gradient::Plain;
+    let mut gradients = std::mem::take(&mut state.particles.velocity_gradient);
+    with_kernel!(state.method.smoothing, K => {
+        if corrected {
+            super::write(&mut gradients, |a, slot| *slot = corrected_gradient::<S, K>(state, a));
+        } else {
+            super::write(&mut gradients, |a, slot| *slot = plain_gradient::<S, K>(state, a));
+        }
+    });
+    state.particles.velocity_gradient = gradients;
+}
+
+#[inline(always)]
+fn plain_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+    let mut sum = S::Mat::default();
+    for_each_pair::<S, K>(state, a, |pair| {
+        let weight = state.mass(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+        sum += S::outer(velocity_difference(state, a, &pair), pair.x * weight);
+    });
+    sum * (S::Real::of(1.0) / state.density(a))
+}
+
+#[inline(always)]
+fn corrected_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+    let (mut sum, mut moment) = (S::Mat::default(), S::Mat::default());
+    for_each_pair::<S, K>(state, a, |pair| {
+        let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+        let gradient = pair.x * weight;
+        sum += S::outer(velocity_difference(state, a, &pair), gradient);
+        moment = moment - S::outer(pair.x, gradient);
+    });
+    S::mat_mat(sum, safe_inverse::<S>(moment))
+}

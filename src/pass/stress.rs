@@ -1,0 +1,47 @@
+//! Advances volumetric strain and deviatoric stress by one step of leapfrog, from the velocity gradient at
+//! the middle of the step. Twin: shaders/pass/stress.wgsl
+//!
+//! The rotation is Cayley's, Q = (1 - A/2)^-1 (1 + A/2) with A = step Omega (Hughes & Winget 1980): exactly
+//! orthogonal, where adding step (Omega S - S Omega) as printed in Fuller (2.45) lets S grow by 5 % a turn.
+
+use super::Stage;
+use crate::material;
+use crate::scene::file::Density;
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let step = state.clock.step;
+    if state.method.shear {
+        let mut stress = std::mem::take(&mut state.particles.deviatoric_stress);
+        super::write(&mut stress, |a, slot| {
+            let gradient = state.particles.velocity_gradient[a];
+            let half = material::deviatoric_rate::<S>(state.body(a).shear_modulus, gradient) * (S::Real::of(0.5) * step);
+            let rotated = rotate::<S>(*slot + half, S::skew_part(gradient) * step);
+            *slot = rotated + half;
+        });
+        state.particles.deviatoric_stress = stress;
+    }
+    if state.method.density == Density::Continuity {
+        let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
+        super::write(&mut strain, |a, slot| {
+            let growth = S::trace(state.particles.velocity_gradient[a]) * step;
+            // Crank-Nicolson of J' = J tr L, written for J - 1 so that f32 keeps small strains.
+            *slot += (S::Real::of(1.0) + *slot) * growth / (S::Real::of(1.0) - S::Real::of(0.5) * growth);
+        });
+        state.particles.volumetric_strain = strain;
+    }
+}
+
+/// Q S Q^T with Q = 1 + (A + A A/2)/(1 + |a|^2/4), |a|^2 = A:A/2: Cayley's rotation in closed form.
+#[inline(always)]
+fn rotate<S: Space>(stress: S::Sym, turn: S::Mat) -> S::Sym {
+    let square = S::mat_mat(turn, turn);
+    let angle_square = -S::Real::of(0.5) * S::trace(square);
+    let scale = S::Real::of(1.0) / (S::Real::of(1.0) + S::Real::of(0.25) * angle_square);
+    let q = S::mat_identity() + (turn + square * S::Real::of(0.5)) * scale;
+    S::sym_part(S::mat_mat(S::mat_mat(q, S::mat_of_sym(stress)), S::transpose(q)))
+}

@@ -1,0 +1,30 @@
+//! rho_a = sum m_b W_ab, the particle itself included, Fuller (2.22). Twin: shaders/pass/sum_density.wgsl
+
+use super::Stage;
+use crate::pair::{for_each_pair, pair_coupling};
+use crate::smoothing::with_kernel;
+use crate::smoothing::{Kernel, Scaled};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    with_kernel!(state.method.smoothing, K => sum::<S, K>(state));
+}
+
+fn sum<S: Space, K: Kernel>(state: &mut State<S>) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
+    super::write(&mut strain, |a, slot| {
+        let body = state.body(a);
+        let mut density = state.mass(a) * kernel.weight::<K>(S::Real::of(0.0), body.smoothing_length);
+        for_each_pair::<S, K>(state, a, |pair| {
+            let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+            density += mass * kernel.weight::<K>(pair.distance, pair.h);
+        });
+        *slot = body.density / density - S::Real::of(1.0);
+    });
+    state.particles.volumetric_strain = strain;
+}

@@ -1,0 +1,121 @@
+//! What a run needs to go on with the same bits: the carried fields in their order, time and step.
+
+use crate::backend::Backend;
+use crate::particles::Field;
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A stored state.
+pub struct Checkpoint {
+    /// Events that are done.
+    pub event: usize,
+    pub time: f64,
+    pub steps: u32,
+    /// Scene as resolved, and device, that made it.
+    pub scene: String,
+    pub device: String,
+    pub columns: BTreeMap<Field, Vec<u8>>,
+}
+
+impl Checkpoint {
+    pub fn new(
+        scene: &Scene,
+        backend: &dyn Backend,
+        event: usize,
+        time: f64,
+        steps: u32,
+        columns: BTreeMap<Field, Vec<u8>>,
+    ) -> Self {
+        Self { event, time, steps, scene: scene.text.clone(), device: backend.describe(), columns }
+    }
+
+    /// Refuses a checkpoint of another scene or device, which could not give the same bits.
+    pub fn check(&self, scene: &Scene, backend: &dyn Backend) -> Result<(), String> {
+        if self.scene != scene.text {
+            return Err("the checkpoint is of another scene, variant or setting".into());
+        }
+        let device = backend.describe();
+        // The number of threads does not change the result.
+        let kind = |text: &str| text.split(", ").filter(|part| !part.ends_with("threads")).collect::<Vec<_>>().join(", ");
+        if kind(&self.device) != kind(&device) {
+            return Err(format!("the checkpoint was made on `{}`, this is `{device}`: choose the same backend", self.device));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(feature = "hdf5")]
+mod stored {
+    use super::{BTreeMap, Checkpoint, Field, Path};
+
+    impl Checkpoint {
+        /// Written aside and renamed, so that the folder always holds a whole one.
+        pub fn write(&self, folder: &Path) -> Result<(), String> {
+            let (aside, path) = (folder.join("checkpoint.h5.part"), folder.join("checkpoint.h5"));
+            self.write_to(&aside).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+            std::fs::rename(&aside, &path).map_err(|e| format!("cannot write {}: {e}", path.display()))
+        }
+
+        fn write_to(&self, path: &Path) -> hdf5::Result<()> {
+            let file = hdf5::File::create(path)?;
+            let numbers = [self.event as f64, self.time, f64::from(self.steps)];
+            file.new_dataset_builder().with_data(&numbers).create("progress")?;
+            for (name, text) in [("scene", &self.scene), ("device", &self.device)] {
+                file.new_dataset_builder().with_data(text.as_bytes()).create(name)?;
+            }
+            let group = file.create_group("fields")?;
+            for (field, bytes) in &self.columns {
+                group.new_dataset_builder().with_data(bytes.as_slice()).create(field.name())?;
+            }
+            file.flush()
+        }
+    }
+
+    pub fn read(folder: &Path) -> Result<Checkpoint, String> {
+        let path = folder.join("checkpoint.h5");
+        if !path.exists() {
+            return Err(format!("{} holds no checkpoint.h5 to resume from", folder.display()));
+        }
+        read_from(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))
+    }
+
+    fn read_from(path: &Path) -> hdf5::Result<Checkpoint> {
+        let file = hdf5::File::open(path)?;
+        let progress = file.dataset("progress")?.read_raw::<f64>()?;
+        let text = |name: &str| -> hdf5::Result<String> {
+            Ok(String::from_utf8_lossy(&file.dataset(name)?.read_raw::<u8>()?).into_owned())
+        };
+        let group = file.group("fields")?;
+        let mut columns = BTreeMap::new();
+        for &field in Field::ALL {
+            if group.link_exists(field.name()) {
+                columns.insert(field, group.dataset(field.name())?.read_raw::<u8>()?);
+            }
+        }
+        Ok(Checkpoint {
+            event: progress[0] as usize,
+            time: progress[1],
+            steps: progress[2] as u32,
+            scene: text("scene")?,
+            device: text("device")?,
+            columns,
+        })
+    }
+}
+
+#[cfg(feature = "hdf5")]
+pub use stored::read;
+
+#[cfg(not(feature = "hdf5"))]
+impl Checkpoint {
+    /// A build without HDF5 keeps no checkpoints.
+    pub fn write(&self, _: &Path) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+#[cfg(not(feature = "hdf5"))]
+pub fn read(_: &Path) -> Result<Checkpoint, String> {
+    Err("this build has no HDF5 and so keeps no checkpoints".into())
+}

@@ -1,0 +1,323 @@
+//! A run from start to end: segments between outputs, what is written, and what stops it.
+
+mod checkpoint;
+mod files;
+mod summary;
+
+pub use files::{Files, folder};
+pub use summary::Summary;
+
+use checkpoint::Checkpoint;
+
+use crate::backend::{Backend, Choice, open};
+use crate::observable::{Moment, Observer, Table, Value, fields_read, observers, profile};
+use crate::particles::Field;
+use crate::scene::Scene;
+use crate::state::Fault;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// What the command line asks of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    pub choice: Choice,
+    /// Folder for the output; `out/SCENE[-VARIANT]` unless given. None of it is written if `dry`.
+    pub out: Option<PathBuf>,
+    pub dry: bool,
+    pub force: bool,
+    pub quiet: bool,
+}
+
+/// Why a run ended before its time.
+#[derive(Debug)]
+pub enum Stop {
+    /// Bad input: exit code 2.
+    Refused(String),
+    /// Went wrong: exit code 1.
+    Failed(String),
+    /// By the user: exit code 130.
+    Interrupted(String),
+}
+
+/// A finished run.
+pub struct Finished {
+    pub table: Table,
+    /// Profiles by name: position and value.
+    pub profiles: BTreeMap<String, Vec<(f64, f64)>>,
+    pub summary: Summary,
+    pub folder: Option<PathBuf>,
+}
+
+/// Steps after which a segment ends even if no output is due, so that particles that move far are sorted again.
+const SEGMENT_STEPS: u32 = 1000;
+
+/// Set by the signal handler.
+pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Runs a scene from its start.
+pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
+    let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
+    let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
+    Run::new(scene, options, backend, files).go()
+}
+
+/// Goes on from the checkpoint in a run's folder, to the same bits as a run that was never broken off.
+pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Finished, Stop> {
+    let saved = checkpoint::read(&folder).map_err(Stop::Refused)?;
+    let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
+    saved.check(scene, &*backend).map_err(Stop::Refused)?;
+    backend.load(&saved.columns).map_err(Stop::Refused)?;
+    backend.set_steps_done(saved.steps);
+    let (files, table) = Files::reopen(scene, folder, saved.time).map_err(Stop::Refused)?;
+    let mut run = Run::new(scene, options, backend, Some(files));
+    (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
+    run.go()
+}
+
+/// Times at which something is written.
+struct Schedule {
+    series: f64,
+    /// 0 for none.
+    frames: f64,
+    duration: f64,
+}
+
+impl Schedule {
+    fn new(scene: &Scene) -> Self {
+        let (file, output) = (&scene.file, &scene.file.output);
+        Self {
+            series: output.series.unwrap_or(file.duration / 100.0),
+            frames: output.frames.unwrap_or(file.duration / 10.0),
+            duration: file.duration,
+        }
+    }
+
+    /// All times in order, each with whether a row and whether a frame is due.
+    fn events(&self) -> Vec<(f64, bool, bool)> {
+        let rounding = 1e-9 * self.duration;
+        let every = |interval: f64| -> Vec<f64> {
+            if interval == 0.0 {
+                return Vec::new();
+            }
+            let count = (self.duration / interval + 1e-9) as u64;
+            (0..=count).map(|k| k as f64 * interval).collect()
+        };
+        let (rows, frames) = (every(self.series), every(self.frames));
+        let mut times: Vec<f64> = rows.iter().chain(&frames).copied().chain([self.duration]).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|a, b| (*a - *b).abs() < rounding);
+        let due = |list: &[f64], t: f64| list.iter().any(|x| (x - t).abs() < rounding);
+        let last = times.len() - 1;
+        let event = |(k, &t): (usize, &f64)| (t, k == last || due(&rows, t), self.frames > 0.0 && (k == last || due(&frames, t)));
+        times.iter().enumerate().map(event).collect()
+    }
+}
+
+struct Run<'a> {
+    scene: &'a Scene,
+    backend: Box<dyn Backend>,
+    files: Option<Files>,
+    observers: Vec<Observer>,
+    fields: Vec<Field>,
+    frame_fields: Vec<Field>,
+    table: Table,
+    events: Vec<(f64, bool, bool)>,
+    /// Next event.
+    event: usize,
+    time: f64,
+    steps: u32,
+    lists: u32,
+    bar: ProgressBar,
+    begin: Instant,
+}
+
+impl<'a> Run<'a> {
+    fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
+        let observers = observers(scene);
+        let fields = fields_read(&observers, scene);
+        let mut frame_fields = fields.clone();
+        frame_fields.extend(files::fields_stored(scene));
+        frame_fields.sort_unstable();
+        frame_fields.dedup();
+        // Hidden by itself where stderr is no terminal.
+        let bar = if options.quiet { ProgressBar::hidden() } else { ProgressBar::new(1000) };
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta_precise} left") {
+            bar.set_style(style);
+        }
+        Self {
+            scene,
+            backend,
+            files,
+            observers,
+            fields,
+            frame_fields,
+            table: Table::default(),
+            events: Schedule::new(scene).events(),
+            event: 0,
+            time: 0.0,
+            steps: 0,
+            lists: 0,
+            bar,
+            begin: Instant::now(),
+        }
+    }
+
+    fn go(mut self) -> Result<Finished, Stop> {
+        // A run that begins also makes its first acceleration; one that resumes has loaded it.
+        if self.event == 0 {
+            self.segment(0.0, true)?;
+            self.output()?;
+        }
+        while self.event < self.events.len() {
+            self.reach(self.events[self.event].0)?;
+            self.output()?;
+        }
+        self.bar.finish_and_clear();
+        self.finish()
+    }
+
+    /// Steps until an absolute time.
+    fn reach(&mut self, target: f64) -> Result<(), Stop> {
+        while self.time < target {
+            self.segment(target - self.time, false)?;
+            let elapsed = self.segment_steps()?;
+            // The device's own sum of steps may differ from the segment's length by rounding alone.
+            let arrived = elapsed >= (target - self.time) * (1.0 - 1e-5);
+            self.time = if arrived { target } else { self.time + elapsed };
+        }
+        Ok(())
+    }
+
+    fn segment(&mut self, duration: f64, first: bool) -> Result<(), Stop> {
+        self.backend.begin_segment(self.time, duration, SEGMENT_STEPS, first).map_err(|e| self.fail(&e))
+    }
+
+    /// Advances to the end of a segment; gives the time that it covered.
+    fn segment_steps(&mut self) -> Result<f64, Stop> {
+        loop {
+            let clock = self.backend.advance().map_err(|e| self.fail(&e))?;
+            (self.steps, self.lists) = (clock.steps_done, clock.lists_built);
+            let now = self.time + clock.elapsed;
+            self.bar.set_position((1000.0 * now / self.scene.file.duration) as u64);
+            self.bar.set_message(format!("t = {now:.4e}, step {}", self.steps));
+            if let Some(fault) = Fault::from_number(clock.fault) {
+                return Err(self.fail(fault.sentence()));
+            }
+            if INTERRUPTED.load(Ordering::Relaxed) {
+                return Err(Stop::Interrupted(format!("interrupted at t = {now:.6e}, step {}{}", self.steps, self.advice())));
+            }
+            if clock.running == 0 {
+                return Ok(clock.elapsed);
+            }
+        }
+    }
+
+    fn fail(&self, reason: &str) -> Stop {
+        Stop::Failed(format!(
+            "{}: stopped after t = {:.6e}, step {}: {reason}{}",
+            self.scene.label(),
+            self.time,
+            self.steps,
+            self.advice()
+        ))
+    }
+
+    fn advice(&self) -> String {
+        let Some(files) = &self.files else { return String::new() };
+        format!("; what was written so far is in {}", files.folder.display())
+    }
+
+    /// Writes what is due at the present event.
+    fn output(&mut self) -> Result<(), Stop> {
+        let (time, row, frame) = self.events[self.event];
+        self.event += 1;
+        let fields = if frame && self.files.is_some() { &self.frame_fields } else { &self.fields };
+        let fetched = self.backend.fetch(fields);
+        let fetched = fetched.map_err(|e| self.fail(&e))?;
+        let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
+        if row {
+            let values = observe(&moment, &self.observers);
+            self.table.times.push(time);
+            for (name, value) in &values {
+                self.table.columns.entry(name.clone()).or_default().push(*value);
+            }
+        }
+        self.write(&moment, row, frame).map_err(|e| self.fail(&e))
+    }
+
+    /// Row, frame and checkpoint of a moment.
+    fn write(&mut self, moment: &Moment, row: bool, frame: bool) -> Result<(), String> {
+        let Some(files) = &mut self.files else { return Ok(()) };
+        if row {
+            files.row(moment.time, &self.observers, &self.table)?;
+        }
+        if frame {
+            files.frame(self.scene, moment)?;
+            let columns = self.backend.save()?;
+            let saved = Checkpoint::new(self.scene, &*self.backend, self.event, moment.time, self.steps, columns);
+            files.checkpoint(&saved)?;
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Finished, Stop> {
+        unwrap_angles(&mut self.table, &self.observers);
+        let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
+        let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
+        let profiles = self.profiles(&moment);
+        let summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.begin.elapsed())
+            .map_err(|e| self.fail(&e))?;
+        let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
+        if let Some(files) = &self.files {
+            files.finish(self.scene, &finished).map_err(Stop::Failed)?;
+        }
+        Ok(finished)
+    }
+
+    fn profiles(&self, moment: &Moment) -> BTreeMap<String, Vec<(f64, f64)>> {
+        let take = |observer: &Observer| {
+            let mut rows = profile(moment, observer);
+            let scale = observer.typed.over.as_ref().and_then(|o| self.table.columns.get(o)).and_then(|c| c.last());
+            rows.iter_mut().for_each(|row| row.1 /= scale.copied().unwrap_or(1.0));
+            (observer.name.clone(), rows)
+        };
+        self.observers.iter().filter(|o| matches!(o.kind.value, Value::Profile)).map(take).collect()
+    }
+}
+
+/// Name and value of every series observable.
+fn observe(moment: &Moment, observers: &[Observer]) -> Vec<(String, f64)> {
+    let value = |o: &Observer| match o.kind.value {
+        Value::Series(of) => Some((o.name.clone(), of(moment, o))),
+        _ => None,
+    };
+    observers.iter().filter_map(value).collect()
+}
+
+/// Angles are found between -180 and 180 degrees; a series of them is continuous.
+fn unwrap_angles(table: &mut Table, observers: &[Observer]) {
+    for observer in observers.iter().filter(|o| o.kind.word == "rotation_angle") {
+        let Some(column) = table.columns.get_mut(&observer.name) else { continue };
+        for k in 1..column.len() {
+            column[k] -= 360.0 * ((column[k] - column[k - 1]) / 360.0).round();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_hold_every_row_and_frame_once() {
+        let schedule = Schedule { series: 0.1, frames: 0.25, duration: 1.0 };
+        let events = schedule.events();
+        assert_eq!(events.iter().filter(|e| e.1).count(), 11);
+        assert_eq!(events.iter().filter(|e| e.2).count(), 5);
+        assert_eq!(events.len(), 13);
+        assert_eq!(events.last().map(|e| e.0), Some(1.0));
+    }
+}

@@ -1,0 +1,73 @@
+//! What a scene used and cost.
+
+use crate::backend::Backend;
+use crate::particles::Field;
+use crate::scene::Scene;
+use crate::step;
+use serde_json::json;
+use std::time::Duration;
+
+/// Cost of a run.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    pub device: String,
+    pub particles: usize,
+    /// Mean over particles at the end, within the list's reach.
+    pub neighbors: f64,
+    pub steps: u32,
+    pub lists_built: u32,
+    pub passes: Vec<&'static str>,
+    pub fields: Vec<&'static str>,
+    pub bytes: u64,
+    pub seconds: f64,
+}
+
+impl Summary {
+    pub fn new(scene: &Scene, backend: &mut dyn Backend, steps: u32, lists_built: u32, wall: Duration) -> Result<Self, String> {
+        let counts = backend.fetch(&[Field::NeighborCount])?;
+        let particles = scene.particles.len();
+        Ok(Self {
+            device: backend.describe(),
+            particles,
+            neighbors: counts[&Field::NeighborCount].iter().sum::<f64>() / particles as f64,
+            steps,
+            lists_built,
+            passes: step::passes(&scene.method).iter().map(|p| p.name()).collect(),
+            fields: step::fields(&scene.method).iter().map(|f| f.name()).collect(),
+            bytes: backend.bytes(),
+            seconds: wall.as_secs_f64(),
+        })
+    }
+
+    /// Particle-steps per second of wall time, outputs included.
+    pub fn updates_per_second(&self) -> f64 {
+        self.particles as f64 * f64::from(self.steps) / self.seconds
+    }
+
+    pub fn text(&self) -> String {
+        format!(
+            "{} particles with {:.1} neighbours, {} passes a step, {:.0} bytes a particle\n\
+             {}\n\
+             {} steps, {} neighbour lists, {:.2} s: {:.3e} particle-updates a second",
+            self.particles,
+            self.neighbors,
+            self.passes.len(),
+            self.bytes as f64 / self.particles as f64,
+            self.device,
+            self.steps,
+            self.lists_built,
+            self.seconds,
+            self.updates_per_second(),
+        )
+    }
+
+    pub fn json(&self, scene: &Scene) -> String {
+        let value = json!({
+            "scene": scene.name, "variant": scene.variant, "title": scene.file.title, "version": env!("CARGO_PKG_VERSION"),
+            "device": self.device, "particles": self.particles, "neighbors": self.neighbors, "steps": self.steps,
+            "lists_built": self.lists_built, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
+            "seconds": self.seconds, "particle_updates_per_second": self.updates_per_second(),
+        });
+        format!("{value:#}\n")
+    }
+}

@@ -1,0 +1,456 @@
+//! A scene exactly as it is typed: one struct per TOML table, nothing computed, nothing checked beyond
+//! words and types. [`super::resolve`] turns it into what the solver sees.
+//!
+//! Lengths, times and masses are in the scene's own consistent units (`units`).
+
+use super::packing::Packing;
+use super::shape::{Coordinates, Shape};
+use crate::smoothing::Smoothing;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The whole file.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    /// One line that says what happens.
+    pub title: String,
+    /// Where the scene comes from: document, section, equation.
+    #[serde(default)]
+    pub source: String,
+    pub dimension: usize,
+    #[serde(default)]
+    pub units: Units,
+    /// Particle spacing of every body that names none.
+    pub spacing: f64,
+    pub duration: f64,
+    /// Small enough to run with the tests.
+    #[serde(default)]
+    pub ci: bool,
+    pub body: Vec<Body>,
+    pub material: BTreeMap<String, Material>,
+    #[serde(default)]
+    pub formulation: Formulation,
+    #[serde(default)]
+    pub contact: Vec<Contact>,
+    #[serde(default)]
+    pub boundary: Vec<Boundary>,
+    #[serde(default)]
+    pub symmetry: Vec<Symmetry>,
+    /// Lengths of a periodic box, one for each axis; 0 leaves an axis open.
+    #[serde(default)]
+    pub periodic: Option<Vec<f64>>,
+    /// Acceleration of every free particle.
+    #[serde(default)]
+    pub body_force: Option<Vec<f64>>,
+    #[serde(default)]
+    pub kick: Vec<Kick>,
+    #[serde(default)]
+    pub time: Time,
+    #[serde(default)]
+    pub output: Output,
+    #[serde(default)]
+    pub observe: BTreeMap<String, Observe>,
+    #[serde(default)]
+    pub expect: BTreeMap<String, Expect>,
+    /// Named sets of changes; see [`super::read`]. Kept as typed: each is merged into the file and read again.
+    #[serde(default)]
+    pub variant: BTreeMap<String, toml::Table>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Units {
+    #[default]
+    #[serde(rename = "SI")]
+    Si,
+    #[serde(rename = "mm-t-s")]
+    MillimetreTonneSecond,
+    #[serde(rename = "dimensionless")]
+    Dimensionless,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    pub name: String,
+    pub shape: Shape,
+    #[serde(default)]
+    pub packing: Packing,
+    /// Particle spacing, if not the scene's.
+    pub spacing: Option<f64>,
+    /// A point of the lattice; the origin unless given.
+    pub anchor: Option<Coordinates>,
+    pub material: String,
+    pub velocity: Option<Coordinates>,
+    /// Angular velocity about `spin_axis` (z unless given) through `spin_center`.
+    #[serde(default)]
+    pub spin: f64,
+    pub spin_axis: Option<Coordinates>,
+    pub spin_center: Option<Coordinates>,
+    /// Initial velocity field by name, beside `velocity` and `spin`.
+    pub motion: Option<Motion>,
+    /// Volume over unstressed volume at the start.
+    pub relative_volume: Option<f64>,
+    /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
+    pub deviatoric_stress: Option<[f64; 6]>,
+}
+
+/// A velocity field that varies over a body.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// v = gradient x, rows of the matrix.
+    Gradient(Vec<Vec<f64>>),
+    /// v = amplitude sin(wave_vector . x + phase)
+    Wave(Wave),
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wave {
+    pub amplitude: Coordinates,
+    pub wave_vector: Coordinates,
+    #[serde(default)]
+    pub phase: f64,
+}
+
+/// Extra velocity for the one particle nearest to a point.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kick {
+    pub at: Coordinates,
+    pub velocity: Coordinates,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    #[serde(default)]
+    pub law: LawWord,
+    pub density: f64,
+    pub youngs_modulus: Option<f64>,
+    pub poisson_ratio: Option<f64>,
+    pub bulk_modulus: Option<f64>,
+    pub shear_modulus: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LawWord {
+    /// Linear equation of state and hypoelastic deviator.
+    #[default]
+    Elastic,
+    /// Linear equation of state alone.
+    Fluid,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Formulation {
+    pub smoothing: Smoothing,
+    /// h over the particle spacing.
+    pub smoothing_length: f64,
+    pub density: Density,
+    pub gradient: Gradient,
+    pub viscosity: Option<Viscosity>,
+    /// Weight of Monaghan's XSPH: particles move with the smoothed velocity.
+    pub xsph: Option<f64>,
+    /// Weight of the same average used as a filter of the velocity itself: dissipates, kept for comparison.
+    pub velocity_filter: Option<f64>,
+    pub artificial_stress: Option<ArtificialStress>,
+    /// Integrate the energy equation.
+    pub internal_energy: bool,
+    /// Add up what viscosity turns into heat.
+    pub dissipated_energy: bool,
+    /// Reach of the neighbour list beyond the kernel's, over h.
+    pub list_margin: f64,
+    /// Entries that a particle's list can hold; from the packing unless given.
+    pub list_capacity: Option<u32>,
+}
+
+impl Default for Formulation {
+    fn default() -> Self {
+        Self {
+            smoothing: Smoothing::CubicSpline,
+            smoothing_length: 1.3,
+            density: Density::default(),
+            gradient: Gradient::default(),
+            viscosity: None,
+            xsph: None,
+            velocity_filter: None,
+            artificial_stress: None,
+            internal_energy: false,
+            dissipated_energy: false,
+            list_margin: 0.15,
+            list_capacity: None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Density {
+    /// From the divergence of the velocity, Fuller (2.21).
+    #[default]
+    Continuity,
+    /// From the particles' masses, Fuller (2.22): wrong at free surfaces.
+    Summation,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Gradient {
+    /// Bare kernel gradient.
+    #[default]
+    Plain,
+    /// The velocity gradient is exact for linear fields; the force is the plain one.
+    Corrected,
+    /// The force is the adjoint of the corrected velocity gradient: keeps energy and angular momentum.
+    Adjoint,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Viscosity {
+    pub alpha: f64,
+    /// Quadratic coefficient; 2 alpha unless given, as in Fuller (2.60).
+    pub beta: Option<f64>,
+    /// Softens the denominator: r^2 + softening h^2.
+    #[serde(default)]
+    pub softening: f64,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArtificialStress {
+    #[serde(default)]
+    pub form: ArtificialForm,
+    pub epsilon: f64,
+    #[serde(default = "default_exponent")]
+    pub exponent: u32,
+    /// Spacing at which the kernel is one in f = W(r)/W(spacing).
+    #[serde(default)]
+    pub spacing: ArtificialSpacing,
+}
+
+fn default_exponent() -> u32 {
+    4
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ArtificialForm {
+    /// epsilon |P|/rho^2 where the pressure is tensile.
+    Scalar,
+    /// On tensile principal stresses: Gray, Monaghan & Swift 2001.
+    #[default]
+    Principal,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ArtificialSpacing {
+    /// The particle spacing.
+    #[default]
+    Initial,
+    /// Mean distance to the neighbours of a particle inside the lattice: Strand's other reading.
+    Mean,
+    /// A length.
+    Given(f64),
+}
+
+/// What acts between two bodies through the kernel sums.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    pub between: [String; 2],
+    /// 1: as if one body; 0: not at all; between: weakened.
+    pub kernel: f64,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Boundary {
+    pub name: Option<String>,
+    pub select: Select,
+    /// Held at rest along all axes, or along the axes marked true.
+    pub fixed: Option<Fixed>,
+    /// Prescribed velocity; axes with "free" stay free.
+    pub velocity: Option<Vec<Axis>>,
+    /// Force on the whole selection, shared by mass.
+    pub force: Option<Coordinates>,
+    /// Times and factors of the velocity or force, linear between, constant outside.
+    pub course: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Fixed {
+    All(bool),
+    Axes(Vec<bool>),
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Axis {
+    Value(f64),
+    Word(FreeWord),
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FreeWord {
+    Free,
+}
+
+/// Particles of a body, inside a shape, or both.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Select {
+    pub body: Option<String>,
+    pub inside: Option<Shape>,
+}
+
+/// A plane that the material cannot cross and along which it slips: its mirror image acts beyond it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Symmetry {
+    pub point: Coordinates,
+    /// Points into the material.
+    pub normal: Coordinates,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Time {
+    pub integrator: Integrator,
+    /// Time step over h/c.
+    pub cfl: f64,
+    /// Fixed time step instead.
+    pub step: Option<f64>,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self { integrator: Integrator::Leapfrog, cfl: 0.3, step: None }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// Kick-drift-kick: one force a step, second order, symplectic for elastic bodies.
+    Leapfrog,
+    /// Heun.
+    Rk2,
+    /// Shu & Osher's third order: each stage an average of Euler steps.
+    SspRk3,
+    /// The classical fourth order.
+    Rk4,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Output {
+    /// Time between rows of the series; a hundredth of the duration unless given.
+    pub series: Option<f64>,
+    /// Time between pictures and stored particle states; a tenth of the duration unless given; 0 for none.
+    pub frames: Option<f64>,
+    /// Fields in the particle file, beside displacement and velocity.
+    pub fields: Vec<String>,
+    pub picture: Picture,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { series: None, frames: None, fields: vec!["stress".into(), "density".into()], picture: Picture::default() }
+    }
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Picture {
+    pub field: String,
+    pub range: Option<[f64; 2]>,
+    pub width: u32,
+    pub height: u32,
+    /// Direction from which a 3D scene is seen.
+    pub eye: Option<[f64; 3]>,
+    /// Corners of what is shown; the whole scene over the whole run unless given.
+    pub bounds: Option<[Coordinates; 2]>,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self { field: "pressure".into(), range: None, width: 1200, height: 900, eye: None, bounds: None }
+    }
+}
+
+/// A number followed through time, or found from such a series. `kind` is a word of `lithosph list`.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Observe {
+    pub kind: String,
+    /// Body that the number is taken over; all bodies unless given.
+    pub body: Option<String>,
+    /// Shape that the particles lie in at the start.
+    pub inside: Option<Shape>,
+    /// Field by path: "velocity.x", "stress.yy", "pressure" …
+    pub field: Option<String>,
+    /// Where a probe sits at the start.
+    pub at: Option<Coordinates>,
+    /// Interpolate with the kernel at the fixed point instead of following the nearest particle.
+    pub interpolate: bool,
+    /// Component: "x", "y", "z" or "magnitude".
+    pub axis: Option<String>,
+    /// Another observable that this one is found from.
+    pub of: Option<String>,
+    /// A second one, the divisor of a ratio.
+    pub over: Option<String>,
+    /// Times between which it is found.
+    pub between: Option<[f64; 2]>,
+    /// Distance in spacings, speed, or whatever the kind takes.
+    pub distance: Option<f64>,
+}
+
+/// What must come out.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Expect {
+    pub value: Option<f64>,
+    pub tolerance: Option<f64>,
+    /// The tolerance is a fraction of the value.
+    pub relative: bool,
+    pub reference: Option<String>,
+    /// Column of the abscissa (time, or position for a profile) and of the ordinate.
+    pub columns: Option<[String; 2]>,
+    pub norm: Option<Norm>,
+    pub between: Option<[f64; 2]>,
+    pub because: Option<String>,
+    /// How one number is made of a series: final unless given.
+    pub statistic: Option<Statistic>,
+    pub source: String,
+    /// Holds for this variant only.
+    pub variant: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Norm {
+    Max,
+    Rms,
+    Final,
+    Phase,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Statistic {
+    Final,
+    First,
+    Min,
+    Max,
+    Mean,
+    /// Largest distance from the first value.
+    Drift,
+}

@@ -1,0 +1,151 @@
+//! Scenes: as typed ([`file`]), then resolved here into particles and numbers. Knows no device.
+
+mod carve;
+mod check;
+mod clip;
+pub mod file;
+pub mod packing;
+pub mod read;
+mod resolve;
+mod section;
+pub mod shape;
+mod state;
+mod words;
+
+use crate::state::Method;
+use glam::DVec3;
+use std::path::Path;
+
+/// A scene ready to run.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// File stem.
+    pub name: String,
+    pub variant: Option<String>,
+    pub file: file::File,
+    /// What is stored as `run.toml`.
+    pub text: String,
+    pub method: Method,
+    pub bodies: Vec<Body>,
+    /// Weight of the kernel sums between bodies a and b.
+    pub coupling: Vec<Vec<f64>>,
+    pub constraints: Vec<Constraint>,
+    /// In order of their numbers.
+    pub particles: Vec<Particle>,
+    /// Period of each axis, 0 where open.
+    pub period: [f64; 3],
+    pub planes: Vec<Plane>,
+    /// Spacing at which the artificial stress has its nominal strength.
+    pub artificial_spacing: f64,
+}
+
+/// A body's numbers.
+#[derive(Debug, Clone)]
+pub struct Body {
+    pub name: String,
+    pub spacing: f64,
+    pub smoothing_length: f64,
+    pub density: f64,
+    pub bulk_modulus: f64,
+    pub shear_modulus: f64,
+    /// Volume over unstressed volume at the start.
+    pub relative_volume: f64,
+    /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
+    pub deviator: [f64; 6],
+}
+
+impl Body {
+    /// Speed of longitudinal waves.
+    pub fn sound_speed(&self) -> f64 {
+        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()
+    }
+}
+
+/// A particle at the start.
+#[derive(Debug, Clone, Copy)]
+pub struct Particle {
+    pub body: u32,
+    /// Boundary condition plus 1, or 0.
+    pub constraint: u32,
+    pub position: DVec3,
+    /// Unstressed.
+    pub volume: f64,
+    pub velocity: DVec3,
+}
+
+/// A boundary condition.
+#[derive(Debug, Clone)]
+pub struct Constraint {
+    pub name: String,
+    /// Axes along which the velocity is prescribed.
+    pub prescribed: [bool; 3],
+    /// Velocity along those axes, acceleration along the others.
+    pub vector: [f64; 3],
+    pub course: Vec<[f64; 2]>,
+}
+
+/// A mirror plane: points x with x . normal = offset.
+#[derive(Debug, Clone, Copy)]
+pub struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}
+
+impl Scene {
+    /// Reads and resolves a scene file. Errors are one sentence with file and line.
+    pub fn open(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
+        let name = path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
+        resolve::resolve(name, read::read(path, variant, overrides)?)
+    }
+
+    /// The same from text.
+    pub fn parse(text: &str, name: &str, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
+        resolve::resolve(name.into(), read::read_text(text, name, variant, overrides)?)
+    }
+
+    pub fn dimension(&self) -> usize {
+        self.method.dimension
+    }
+
+    /// Names of the units of length, mass and time.
+    pub fn unit_names(&self) -> [&'static str; 3] {
+        match self.file.units {
+            file::Units::Si => ["m", "kg", "s"],
+            file::Units::MillimetreTonneSecond => ["mm", "t", "s"],
+            file::Units::Dimensionless => ["L", "M", "T"],
+        }
+    }
+
+    /// Constant mass of a particle.
+    pub fn mass(&self, number: usize) -> f64 {
+        let particle = &self.particles[number];
+        particle.volume * self.bodies[particle.body as usize].density
+    }
+
+    pub fn body_index(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
+    /// Scene and variant as one word, for folders and captions.
+    pub fn label(&self) -> String {
+        self.variant.as_ref().map_or_else(|| self.name.clone(), |variant| format!("{}-{variant}", self.name))
+    }
+
+    /// Numbers of the particles of a body, inside a shape at the start, or both.
+    pub fn select(&self, body: Option<&str>, inside: Option<&shape::Shape>) -> Vec<usize> {
+        let wanted = body.and_then(|name| self.body_index(name));
+        (0..self.particles.len())
+            .filter(|&i| {
+                let particle = &self.particles[i];
+                wanted.is_none_or(|w| particle.body as usize == w)
+                    && inside.is_none_or(|shape| shape.contains(particle.position, self.dimension()))
+            })
+            .collect()
+    }
+
+    /// Number of the particle nearest to a point at the start.
+    pub fn nearest(&self, point: DVec3) -> usize {
+        let distance = |i: &usize| self.particles[*i].position.distance_squared(point);
+        (0..self.particles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    }
+}

@@ -1,0 +1,384 @@
+//! From what is typed to particles and numbers; refuses what is impossible or contradictory.
+
+use super::file::{ArtificialSpacing, Axis, File, Fixed, LawWord, Motion};
+use super::packing::fill;
+use super::read::{Read, Source, nearest};
+use super::shape::used;
+use super::{Body, Constraint, Particle, Plane, Scene, file};
+use crate::state::Method;
+use glam::DVec3;
+
+pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
+    let Read { file, source, variant, resolved_text: text, .. } = read;
+    let refuse = Refuse { source: &source };
+    numbers(&file, &refuse)?;
+    let bodies = bodies(&file, &refuse)?;
+    let mut particles = pack(&file, &bodies, &refuse)?;
+    let constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
+    let coupling = coupling(&file, &bodies, &refuse)?;
+    let planes = planes(&file, &refuse)?;
+    let period = period(&file, &bodies, &refuse)?;
+    let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
+    let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
+    let scene =
+        Scene { name, variant, file, text, method, bodies, coupling, constraints, particles, period, planes, artificial_spacing };
+    crate::observable::check(&scene, |path, message| refuse.at(path, message))?;
+    Ok(scene)
+}
+
+/// Makes the sentences of refusals.
+struct Refuse<'a> {
+    source: &'a Source,
+}
+
+impl Refuse<'_> {
+    fn at(&self, path: &[&str], message: impl Into<String>) -> String {
+        format!("{}: {}", self.source.place(path), message.into())
+    }
+    fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
+        if holds { Ok(()) } else { Err(self.at(path, message())) }
+    }
+}
+
+/// Single numbers that must lie in a range.
+fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    let f = &file.formulation;
+    refuse.unless((1..=3).contains(&file.dimension), &["dimension"], || {
+        format!("dimension must be 1, 2 or 3, found {}", file.dimension)
+    })?;
+    let one = |value: f64, path: &[&str], what: &str| {
+        refuse.unless(positive(value), path, || format!("{what} must be a positive number, found {value}"))
+    };
+    one(file.spacing, &["spacing"], "spacing")?;
+    one(file.duration, &["duration"], "duration")?;
+    one(f.smoothing_length, &["formulation", "smoothing_length"], "smoothing_length (in spacings)")?;
+    one(file.time.cfl, &["time", "cfl"], "cfl")?;
+    if let Some(step) = file.time.step {
+        one(step, &["time", "step"], "step")?;
+    }
+    if let Some(series) = file.output.series {
+        one(series, &["output", "series"], "series (time between rows)")?;
+    }
+    if let Some(frames) = file.output.frames {
+        refuse.unless(frames >= 0.0 && frames.is_finite(), &["output", "frames"], || {
+            format!("frames (time between pictures) must not be negative, found {frames}")
+        })?;
+    }
+    refuse.unless((0.02..=1.0).contains(&f.list_margin), &["formulation", "list_margin"], || {
+        format!("list_margin must lie between 0.02 and 1 smoothing lengths, found {}", f.list_margin)
+    })?;
+    for (weight, key) in [(f.xsph, "xsph"), (f.velocity_filter, "velocity_filter")] {
+        let fits = weight.is_none_or(|w| (0.0..=1.0).contains(&w));
+        refuse.unless(fits, &["formulation", key], || format!("{key} must lie between 0 and 1"))?;
+    }
+    if let Some(v) = &f.viscosity {
+        let fits = v.alpha >= 0.0 && v.beta.unwrap_or(0.0) >= 0.0 && v.softening >= 0.0;
+        refuse
+            .unless(fits, &["formulation", "viscosity"], || "viscosity takes no negative numbers: it would add energy".into())?;
+    }
+    if let Some(a) = &f.artificial_stress {
+        refuse.unless(a.epsilon >= 0.0, &["formulation", "artificial_stress", "epsilon"], || {
+            "epsilon must not be negative".into()
+        })?;
+    }
+    if let Some(course) =
+        file.boundary.iter().find(|b| b.course.as_ref().is_some_and(|c| c.windows(2).any(|w| w[1][0] <= w[0][0])))
+    {
+        let name = course.name.clone().unwrap_or_default();
+        return Err(refuse.at(&["boundary"], format!("times of the course of boundary `{name}` must increase")));
+    }
+    refuse.unless(!file.body.is_empty(), &["body"], || "a scene needs at least one [[body]]".into())
+}
+
+fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
+    let mut list: Vec<Body> = Vec::new();
+    for (k, typed) in file.body.iter().enumerate() {
+        let at = k.to_string();
+        let path = |key: &'static str| ["body".to_string(), at.clone(), key.to_string()];
+        let refuse_at = |key, message: String| {
+            let path = path(key);
+            refuse.at(&path.each_ref().map(String::as_str), message)
+        };
+        if list.iter().any(|body| body.name == typed.name) {
+            return Err(refuse_at("name", format!("two bodies are named `{}`", typed.name)));
+        }
+        let Some(material) = file.material.get(&typed.material) else {
+            let hint = nearest(&typed.material, file.material.keys().map(String::as_str));
+            let hint = hint.map_or_else(String::new, |word| format!(", did you mean `{word}`?"));
+            return Err(refuse_at("material", format!("no [material.{}]{hint}", typed.material)));
+        };
+        let (bulk_modulus, shear_modulus) = moduli(material)
+            .map_err(|message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material)))?;
+        let relative_volume = typed.relative_volume.unwrap_or(1.0);
+        if !(relative_volume > 0.0 && relative_volume.is_finite()) {
+            return Err(refuse_at(
+                "relative_volume",
+                format!("relative_volume must be a positive number, found {relative_volume}"),
+            ));
+        }
+        let deviator = typed.deviatoric_stress.unwrap_or_default();
+        let scale = deviator.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+        if (deviator[0] + deviator[1] + deviator[2]).abs() > 1e-9 * scale {
+            return Err(refuse_at(
+                "deviatoric_stress",
+                "the first three components of a deviatoric stress must sum to zero".into(),
+            ));
+        }
+        if scale > 0.0 && shear_modulus == 0.0 {
+            return Err(refuse_at("deviatoric_stress", "a fluid carries no deviatoric stress".into()));
+        }
+        let spacing = typed.spacing.unwrap_or(file.spacing);
+        list.push(Body {
+            name: typed.name.clone(),
+            spacing,
+            smoothing_length: file.formulation.smoothing_length * spacing,
+            density: material.density,
+            bulk_modulus,
+            shear_modulus,
+            relative_volume,
+            deviator,
+        });
+    }
+    Ok(list)
+}
+
+/// Bulk and shear modulus from the pair of constants that is typed.
+fn moduli(material: &file::Material) -> Result<(f64, f64), String> {
+    let positive = |value: f64, what: &str| {
+        if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("needs a positive {what}, found {value}")) }
+    };
+    positive(material.density, "density")?;
+    let given = (material.youngs_modulus, material.poisson_ratio, material.bulk_modulus, material.shear_modulus);
+    match (material.law, given) {
+        (LawWord::Elastic, (Some(e), Some(nu), None, None)) => {
+            positive(e, "youngs_modulus")?;
+            if !(nu > -1.0 && nu < 0.5) {
+                return Err(format!("needs a poisson_ratio between -1 and 0.5, found {nu}"));
+            }
+            Ok((e / (3.0 * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu))))
+        }
+        (LawWord::Elastic, (None, None, Some(k), Some(mu))) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
+        (LawWord::Elastic, _) => {
+            Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into())
+        }
+        (LawWord::Fluid, (None, None, Some(k), None)) => Ok((positive(k, "bulk_modulus")?, 0.0)),
+        (LawWord::Fluid, _) => Err("is a fluid: it needs bulk_modulus and no other modulus".into()),
+    }
+}
+
+fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, String> {
+    let mut particles = Vec::new();
+    for (k, (typed, body)) in file.body.iter().zip(bodies).enumerate() {
+        let anchor = typed.anchor.as_ref().map_or(DVec3::ZERO, |a| a.vector());
+        let points = fill(&typed.shape, typed.packing, body.spacing, used(anchor, file.dimension), file.dimension)
+            .map_err(|message| refuse.at(&["body", &k.to_string(), "shape"], format!("body `{}`: {message}", body.name)))?;
+        let center = typed.spin_center.as_ref().map_or(DVec3::ZERO, |c| c.vector());
+        let axis = typed.spin_axis.as_ref().map_or(DVec3::Z, |a| a.vector().normalize_or_zero());
+        let velocity = typed.velocity.as_ref().map_or(DVec3::ZERO, |v| v.vector());
+        particles.extend(points.iter().map(|point| {
+            let spin = (axis * typed.spin).cross(point.position - center);
+            let motion = typed.motion.as_ref().map_or(DVec3::ZERO, |m| moved(m, point.position));
+            Particle {
+                body: k as u32,
+                constraint: 0,
+                position: point.position,
+                volume: point.volume / body.relative_volume,
+                velocity: used(velocity + spin + motion, file.dimension),
+            }
+        }));
+    }
+    for kick in &file.kick {
+        let at = kick.at.vector();
+        let distance = |p: &Particle| p.position.distance_squared(at);
+        let near = particles.iter_mut().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(particle) = near {
+            particle.velocity += used(kick.velocity.vector(), file.dimension);
+        }
+    }
+    Ok(particles)
+}
+
+fn moved(motion: &Motion, x: DVec3) -> DVec3 {
+    match motion {
+        Motion::Gradient(rows) => {
+            let row = |k: usize| rows.get(k).map_or(0.0, |r| r.iter().zip(x.to_array()).map(|(a, b)| a * b).sum());
+            DVec3::new(row(0), row(1), row(2))
+        }
+        Motion::Wave(wave) => wave.amplitude.vector() * (wave.wave_vector.vector().dot(x) + wave.phase).sin(),
+    }
+}
+
+fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse: &Refuse) -> Result<Vec<Constraint>, String> {
+    let mut list = Vec::new();
+    for (k, typed) in file.boundary.iter().enumerate() {
+        let at = k.to_string();
+        let path = ["boundary", &at];
+        let name = typed.name.clone().unwrap_or_else(|| format!("boundary {}", k + 1));
+        let wanted = match &typed.select.body {
+            None => None,
+            Some(word) => Some(bodies.iter().position(|b| &b.name == word).ok_or_else(|| {
+                let hint = nearest(word, bodies.iter().map(|b| b.name.as_str()));
+                refuse.at(&path, format!("`{name}` selects no body named `{word}`; did you mean `{}`?", hint.unwrap_or("none")))
+            })?),
+        };
+        let chosen = |p: &Particle| {
+            wanted.is_none_or(|w| p.body as usize == w)
+                && typed.select.inside.as_ref().is_none_or(|s| s.contains(p.position, file.dimension))
+        };
+        let mass: f64 = particles.iter().filter(|p| chosen(p)).map(|p| p.volume * bodies[p.body as usize].density).sum();
+        if mass == 0.0 {
+            return Err(refuse.at(&path, format!("`{name}` selects no particle")));
+        }
+        let (prescribed, vector) = held(typed, file.dimension, mass).map_err(|m| refuse.at(&path, format!("`{name}` {m}")))?;
+        list.push(Constraint { name, prescribed, vector, course: typed.course.clone().unwrap_or_default() });
+        for particle in particles.iter_mut().filter(|p| chosen(p)) {
+            if particle.constraint != 0 {
+                let other = &list[particle.constraint as usize - 1].name;
+                return Err(
+                    refuse.at(&path, format!("`{}` and `{other}` both hold the particle at {}", list[k].name, particle.position))
+                );
+            }
+            particle.constraint = k as u32 + 1;
+        }
+    }
+    Ok(list)
+}
+
+/// Axes held, and velocity or acceleration.
+fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3], [f64; 3]), String> {
+    let (mut prescribed, mut vector) = ([false; 3], [0.0; 3]);
+    match (&typed.fixed, &typed.velocity, &typed.force) {
+        (Some(Fixed::All(true)), None, None) => prescribed[..dimension].fill(true),
+        (Some(Fixed::Axes(axes)), None, force) if axes.len() == dimension => {
+            prescribed[..dimension].copy_from_slice(axes);
+            if let Some(force) = force {
+                vector = (force.vector() / mass).to_array();
+            }
+        }
+        (None, Some(velocity), force) if velocity.len() == dimension => {
+            if let Some(force) = force {
+                vector = (force.vector() / mass).to_array();
+            }
+            for (k, axis) in velocity.iter().enumerate() {
+                if let Axis::Value(value) = axis {
+                    (prescribed[k], vector[k]) = (true, *value);
+                }
+            }
+        }
+        (None, None, Some(force)) => vector = (force.vector() / mass).to_array(),
+        (None, None, None) => return Err("needs one of fixed, velocity or force".into()),
+        _ => return Err(format!("takes fixed or velocity, not both, with {dimension} components")),
+    }
+    Ok((prescribed, vector))
+}
+
+fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
+    let mut table = vec![vec![1.0; bodies.len()]; bodies.len()];
+    for (k, contact) in file.contact.iter().enumerate() {
+        let at = k.to_string();
+        let path = ["contact", &at, "between"];
+        let index = |word: &String| {
+            bodies.iter().position(|b| &b.name == word).ok_or_else(|| {
+                let hint = nearest(word, bodies.iter().map(|b| b.name.as_str()));
+                refuse.at(&path, format!("no body is named `{word}`; did you mean `{}`?", hint.unwrap_or("none")))
+            })
+        };
+        let (a, b) = (index(&contact.between[0])?, index(&contact.between[1])?);
+        refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;
+        refuse.unless((0.0..=1.0).contains(&contact.kernel), &["contact", &at, "kernel"], || {
+            format!("kernel must lie between 0 (off) and 1 (as one body), found {}", contact.kernel)
+        })?;
+        (table[a][b], table[b][a]) = (contact.kernel, contact.kernel);
+    }
+    Ok(table)
+}
+
+fn planes(file: &File, refuse: &Refuse) -> Result<Vec<Plane>, String> {
+    let mut list: Vec<Plane> = Vec::new();
+    for (k, typed) in file.symmetry.iter().enumerate() {
+        let at = k.to_string();
+        let normal = used(typed.normal.vector(), file.dimension).normalize_or_zero();
+        refuse.unless(normal != DVec3::ZERO, &["symmetry", &at, "normal"], || "normal must not be zero".into())?;
+        let orthogonal = list.iter().all(|plane| plane.normal.dot(normal).abs() < 1e-9);
+        refuse.unless(orthogonal, &["symmetry", &at], || "symmetry planes must be at right angles to each other".into())?;
+        list.push(Plane { normal, offset: normal.dot(typed.point.vector()) });
+    }
+    Ok(list)
+}
+
+fn period(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<[f64; 3], String> {
+    let mut period = [0.0; 3];
+    let Some(lengths) = &file.periodic else { return Ok(period) };
+    refuse.unless(lengths.len() == file.dimension, &["periodic"], || {
+        format!("periodic takes {} lengths (0 for an open axis)", file.dimension)
+    })?;
+    period[..file.dimension].copy_from_slice(lengths);
+    let reach = bodies.iter().map(|b| b.smoothing_length).fold(0.0, f64::max) * (2.0 + file.formulation.list_margin);
+    for &length in lengths {
+        refuse.unless(length == 0.0 || length > 3.01 * reach, &["periodic"], || {
+            format!("a periodic box must be longer than three reaches of the neighbour list, {:.4}; found {length}", 3.01 * reach)
+        })?;
+    }
+    refuse.unless(file.symmetry.is_empty(), &["periodic"], || "a scene has periodic axes or symmetry planes, not both".into())?;
+    Ok(period)
+}
+
+fn method(
+    file: &File,
+    bodies: &[Body],
+    coupling: &[Vec<f64>],
+    constraints: &[Constraint],
+    planes: &[Plane],
+    period: [f64; 3],
+    refuse: &Refuse,
+) -> Result<Method, String> {
+    let f = &file.formulation;
+    refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
+        "xsph and velocity_filter are two uses of one average: name one of them".into()
+    })?;
+    refuse.unless(!f.dissipated_energy || f.viscosity.is_some(), &["formulation", "dissipated_energy"], || {
+        "dissipated_energy adds up the heat of viscosity, and this scene names no viscosity".into()
+    })?;
+    let body_force = file.body_force.as_ref().is_some_and(|g| g.iter().any(|&x| x != 0.0));
+    Ok(Method {
+        dimension: file.dimension,
+        smoothing: f.smoothing,
+        integrator: file.time.integrator,
+        density: f.density,
+        gradient: f.gradient,
+        shear: bodies.iter().any(|b| b.shear_modulus > 0.0),
+        many_bodies: bodies.len() > 1,
+        coupling: coupling.iter().flatten().any(|&c| c != 1.0),
+        constraints: !constraints.is_empty(),
+        symmetry: !planes.is_empty(),
+        periodic: period.iter().any(|&p| p > 0.0),
+        body_force,
+        viscosity: f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0),
+        xsph: f.xsph.is_some_and(|w| w > 0.0),
+        velocity_filter: f.velocity_filter.is_some_and(|w| w > 0.0),
+        artificial_stress: f.artificial_stress.as_ref().filter(|a| a.epsilon > 0.0).map(|a| a.form),
+        internal_energy: f.internal_energy,
+        dissipated_energy: f.dissipated_energy,
+        compensated: false,
+    })
+}
+
+fn artificial_spacing(file: &File, bodies: &[Body], particles: &[Particle]) -> f64 {
+    match file.formulation.artificial_stress.as_ref().map(|a| a.spacing) {
+        Some(ArtificialSpacing::Given(length)) => length,
+        Some(ArtificialSpacing::Mean) => mean_spacing(bodies, particles),
+        _ => bodies[0].spacing,
+    }
+}
+
+/// Mean distance to its neighbours of the first body's particle that has most of them.
+fn mean_spacing(bodies: &[Body], particles: &[Particle]) -> f64 {
+    let own: Vec<DVec3> = particles.iter().filter(|p| p.body == 0).map(|p| p.position).collect();
+    let middle = own.iter().copied().sum::<DVec3>() / own.len() as f64;
+    let near = |p: DVec3| own.iter().map(move |q| q.distance(p));
+    let center = own.iter().copied().min_by(|a, b| a.distance_squared(middle).total_cmp(&b.distance_squared(middle)));
+    let reach = 2.0 * bodies[0].smoothing_length;
+    let distances: Vec<f64> = near(center.unwrap_or(middle)).filter(|&d| d > 0.0 && d < reach).collect();
+    if distances.is_empty() { bodies[0].spacing } else { distances.iter().sum::<f64>() / distances.len() as f64 }
+}

@@ -1,0 +1,208 @@
+//! A scene's first state, in the precision of the backend that will step it.
+
+use super::Scene;
+use super::file::Viscosity;
+use crate::particles::Particles;
+use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::step;
+use crate::tensor::{Real, Space};
+use glam::DVec3;
+
+/// Cells may outnumber particles this many times before they are made larger.
+const CELLS_PER_PARTICLE: usize = 4;
+
+impl Scene {
+    /// All tables at time zero. `compensated` keeps the digits that f32 sums would drop.
+    pub fn state<S: Space>(&self, compensated: bool) -> State<S> {
+        let mut method = self.method.clone();
+        method.compensated = compensated;
+        let params = self.params::<S::Real>();
+        let (count, cells) = (self.particles.len(), params.cell_total as usize);
+        let real = S::Real::of;
+        let mut state = State {
+            particles: Particles::allocate(count, &step::fields(&method)),
+            method,
+            params,
+            clock: Clock::default(),
+            bodies: self.bodies.iter().map(body).collect(),
+            coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
+            constraints: Vec::new(),
+            course: Vec::new(),
+            cell_count: vec![0; cells],
+            cell_start: vec![0; cells + 1],
+            cell_block: vec![0; cells.div_ceil(SCAN_BLOCK)],
+            cell_particles: vec![0; count],
+            neighbors: vec![0; count * params.list_capacity as usize],
+            block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
+        };
+        self.fill_constraints(&mut state);
+        self.fill_particles(&mut state);
+        state
+    }
+
+    fn fill_constraints<S: Space>(&self, state: &mut State<S>) {
+        let real = S::Real::of;
+        for typed in &self.constraints {
+            let bits = typed.prescribed.iter().enumerate().map(|(k, &held)| u32::from(held) << k).sum();
+            state.constraints.push(Constraint {
+                prescribed: bits,
+                course_first: state.course.len() as u32,
+                course_count: typed.course.len() as u32,
+                padding: 0,
+                x: real(typed.vector[0]),
+                y: real(typed.vector[1]),
+                z: real(typed.vector[2]),
+                unused: real(0.0),
+            });
+            state.course.extend(typed.course.iter().map(|p| p.map(real)));
+        }
+    }
+
+    fn fill_particles<S: Space>(&self, state: &mut State<S>) {
+        let columns = &mut state.particles;
+        for (i, particle) in self.particles.iter().enumerate() {
+            let body = &self.bodies[particle.body as usize];
+            columns.number[i] = i as u32;
+            columns.reference_position[i] = S::vec_from(particle.position.to_array());
+            columns.reference_volume[i] = S::Real::of(particle.volume);
+            columns.velocity[i] = S::vec_from(particle.velocity.to_array());
+            columns.volumetric_strain[i] = S::Real::of(body.relative_volume - 1.0);
+            if let Some(slot) = columns.body.get_mut(i) {
+                *slot = particle.body;
+            }
+            if let Some(slot) = columns.constraint.get_mut(i) {
+                *slot = particle.constraint;
+            }
+            if let Some(slot) = columns.deviatoric_stress.get_mut(i) {
+                let full = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+                for (row, line) in full.iter().enumerate().take(S::DIMENSION) {
+                    for (column, &k) in line.iter().enumerate().take(S::DIMENSION) {
+                        slot[S::sym_index(row, column)] = S::Real::of(body.deviator[k]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Corners of the particles' box at the start.
+    pub fn extent(&self) -> (DVec3, DVec3) {
+        let ends = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        self.particles.iter().fold(ends, |(low, high), p| (low.min(p.position), high.max(p.position)))
+    }
+
+    /// Largest smoothing length.
+    pub fn smoothing_length(&self) -> f64 {
+        self.bodies.iter().map(|b| b.smoothing_length).fold(0.0, f64::max)
+    }
+
+    fn reach(&self) -> f64 {
+        self.smoothing_length() * (2.0 + self.file.formulation.list_margin)
+    }
+
+    /// Entries a neighbour list needs: what the densest packing holds within reach, and half as much again
+    /// (twice in the plane, where clumps form more easily), since Eulerian particles may crowd.
+    fn list_capacity(&self) -> u32 {
+        let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
+        let q = self.reach() / spacing;
+        let (inside, crowding) = match self.dimension() {
+            1 => (2.0 * q, 3.0),
+            2 => (std::f64::consts::PI * q * q, 2.0),
+            _ => (4.0 / 3.0 * std::f64::consts::PI * q * q * q, 1.5),
+        };
+        // Hexagonal packings are denser by 15 and 41 %.
+        let packing = [1.0, 1.16, 1.42][self.dimension() - 1];
+        let square = self.file.body.iter().all(|b| b.packing == super::packing::Packing::Square);
+        (inside * crowding * if square { 1.0 } else { packing }) as u32 + 16
+    }
+
+    fn params<R: Real>(&self) -> Params<R> {
+        let real = R::of;
+        let f = &self.file.formulation;
+        let (origin, size, cells) = self.grid();
+        let g = self.file.body_force.clone().unwrap_or_default();
+        let component = |k: usize| real(g.get(k).copied().unwrap_or(0.0));
+        let none = Viscosity { alpha: 0.0, beta: None, softening: 0.0 };
+        let viscosity = f.viscosity.as_ref().unwrap_or(&none);
+        let mut planes = [[real(0.0); 4]; 3];
+        for (slot, plane) in planes.iter_mut().zip(&self.planes) {
+            *slot = [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset].map(real);
+        }
+        let h = self.bodies[0].smoothing_length;
+        Params {
+            planes,
+            count: self.particles.len() as u32,
+            first: 0,
+            chunk: self.particles.len() as u32,
+            list_capacity: f.list_capacity.unwrap_or_else(|| self.list_capacity()),
+            cells_x: cells[0],
+            cells_y: cells[1],
+            cells_z: cells[2],
+            cell_total: cells[0] * cells[1] * cells[2],
+            plane_count: self.planes.len() as u32,
+            body_count: self.bodies.len() as u32,
+            artificial_exponent: f.artificial_stress.as_ref().map_or(0, |a| a.exponent),
+            zero: 0,
+            origin_x: real(origin[0]),
+            origin_y: real(origin[1]),
+            origin_z: real(origin[2]),
+            cell_x: real(size[0]),
+            cell_y: real(size[1]),
+            cell_z: real(size[2]),
+            period_x: real(self.period[0]),
+            period_y: real(self.period[1]),
+            period_z: real(self.period[2]),
+            body_force_x: component(0),
+            body_force_y: component(1),
+            body_force_z: component(2),
+            normalisation: real(f.smoothing.normalisation(self.dimension())),
+            reach: real(self.reach()),
+            slack: real(0.5 * f.list_margin * self.smoothing_length()),
+            alpha: real(viscosity.alpha),
+            beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
+            softening: real(viscosity.softening),
+            smoothing_weight: real(f.xsph.or(f.velocity_filter).unwrap_or(0.0)),
+            artificial_epsilon: real(f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon)),
+            artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
+            cfl: real(self.file.time.cfl),
+            fixed_step: real(self.file.time.step.unwrap_or(0.0)),
+        }
+    }
+
+    /// Origin, cell size and number of cells of each axis. The box is that of the start, half as long again
+    /// on each side; particles that leave it still find their neighbours, only more slowly.
+    fn grid(&self) -> ([f64; 3], [f64; 3], [u32; 3]) {
+        let (low, high) = self.extent();
+        let length = (high - low).max(DVec3::ZERO);
+        let most = (CELLS_PER_PARTICLE * self.particles.len()).max(1 << 12);
+        // A little more than the reach, so that rounding cannot put a pair two cells apart.
+        let mut side = self.reach() * 1.001;
+        loop {
+            let (mut origin, mut size, mut cells) = ([0.0; 3], [side; 3], [1u32; 3]);
+            for k in 0..self.dimension() {
+                if self.period[k] > 0.0 {
+                    cells[k] = ((self.period[k] / side).floor() as u32).max(3);
+                    (origin[k], size[k]) = (low[k], self.period[k] / f64::from(cells[k]));
+                } else {
+                    let reach = 0.5 * length[k] + side;
+                    origin[k] = low[k] - reach;
+                    cells[k] = ((length[k] + 2.0 * reach) / side).ceil() as u32;
+                }
+            }
+            if cells.iter().map(|&c| c as usize).product::<usize>() <= most {
+                return (origin, size, cells);
+            }
+            side *= 1.1;
+        }
+    }
+}
+
+fn body<R: Real>(body: &super::Body) -> Body<R> {
+    let real = R::of;
+    Body {
+        density: real(body.density),
+        bulk_modulus: real(body.bulk_modulus),
+        shear_modulus: real(body.shear_modulus),
+        sound_speed: real(body.sound_speed()),
+        smoothing_length: real(body.smoothing_length),
+    }
+}

@@ -1,0 +1,307 @@
+//! Everything that the passes of a run read and write, in one precision: the CPU path steps a
+//! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
+
+use crate::particles::Particles;
+use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+use crate::smoothing::Smoothing;
+use crate::tensor::{Real, Space};
+
+/// Which physics and numerics a run is made of; decides its fields, its passes and its shaders' text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Method {
+    pub dimension: usize,
+    pub smoothing: Smoothing,
+    pub integrator: Integrator,
+    pub density: Density,
+    pub gradient: Gradient,
+    /// Some material resists shear.
+    pub shear: bool,
+    pub many_bodies: bool,
+    /// Some pair of bodies does not act as one through the kernel.
+    pub coupling: bool,
+    pub constraints: bool,
+    pub symmetry: bool,
+    pub periodic: bool,
+    pub body_force: bool,
+    pub viscosity: bool,
+    pub xsph: bool,
+    pub velocity_filter: bool,
+    pub artificial_stress: Option<ArtificialForm>,
+    pub internal_energy: bool,
+    pub dissipated_energy: bool,
+    /// Sums of displacement and velocity keep the digits that f32 would drop.
+    pub compensated: bool,
+}
+
+impl Method {
+    /// The words that `#if` knows in the shaders.
+    pub fn flags(&self) -> Vec<&'static str> {
+        let all = [
+            ("line", self.dimension == 1),
+            ("plane", self.dimension == 2),
+            ("solid", self.dimension == 3),
+            ("shear", self.shear),
+            ("many_bodies", self.many_bodies),
+            ("coupling", self.coupling),
+            ("constraints", self.constraints),
+            ("symmetry", self.symmetry),
+            ("periodic", self.periodic),
+            ("body_force", self.body_force),
+            ("viscosity", self.viscosity),
+            ("xsph", self.xsph),
+            ("velocity_filter", self.velocity_filter),
+            ("artificial_stress", self.artificial_stress.is_some()),
+            ("scalar_form", self.artificial_stress == Some(ArtificialForm::Scalar)),
+            ("principal_form", self.artificial_stress == Some(ArtificialForm::Principal)),
+            ("summation", self.density == Density::Summation),
+            ("continuity", self.density == Density::Continuity),
+            ("correct_rate", self.gradient != Gradient::Plain),
+            ("adjoint", self.gradient == Gradient::Adjoint),
+            ("internal_energy", self.internal_energy),
+            ("dissipated_energy", self.dissipated_energy),
+            ("power", self.internal_energy || self.dissipated_energy),
+            ("pair_velocity", self.viscosity || self.internal_energy),
+            ("pair_volume", self.viscosity || self.gradient == Gradient::Adjoint),
+            ("compensated", self.compensated),
+        ];
+        all.iter().filter(|(_, on)| *on).map(|(word, _)| *word).collect()
+    }
+}
+
+/// Numbers that stay the same during a run. Twin: `shaders/lib/params.wgsl`; a test compares the offsets.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct Params<R> {
+    /// Axis-aligned mirror planes: normal and distance from the origin along it.
+    pub planes: [[R; 4]; 3],
+    pub count: u32,
+    /// First particle, and number of particles, of the part of the neighbour list that is bound.
+    pub first: u32,
+    pub chunk: u32,
+    pub list_capacity: u32,
+    pub cells_x: u32,
+    pub cells_y: u32,
+    pub cells_z: u32,
+    pub cell_total: u32,
+    pub plane_count: u32,
+    pub body_count: u32,
+    pub artificial_exponent: u32,
+    /// Always zero; the compiler does not know it.
+    pub zero: u32,
+    pub origin_x: R,
+    pub origin_y: R,
+    pub origin_z: R,
+    pub cell_x: R,
+    pub cell_y: R,
+    pub cell_z: R,
+    /// Period of the box along each axis, 0 where it is open.
+    pub period_x: R,
+    pub period_y: R,
+    pub period_z: R,
+    pub body_force_x: R,
+    pub body_force_y: R,
+    pub body_force_z: R,
+    /// Constant of the smoothing kernel in this dimension.
+    pub normalisation: R,
+    /// Distance up to which pairs enter the neighbour list.
+    pub reach: R,
+    /// Displacement after which the list must be built anew.
+    pub slack: R,
+    pub alpha: R,
+    pub beta: R,
+    pub softening: R,
+    /// Weight of the neighbours in the smoothed velocity.
+    pub smoothing_weight: R,
+    pub artificial_epsilon: R,
+    /// Kernel at the spacing where the artificial stress has its nominal strength.
+    pub artificial_weight: R,
+    pub cfl: R,
+    /// Fixed time step, or 0.
+    pub fixed_step: R,
+}
+
+/// Numbers of one body and its material. Twin: `Body` in `shaders/lib/params.wgsl`.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct Body<R> {
+    /// Density when unstressed.
+    pub density: R,
+    pub bulk_modulus: R,
+    pub shear_modulus: R,
+    /// Speed of longitudinal waves.
+    pub sound_speed: R,
+    pub smoothing_length: R,
+}
+
+/// A boundary condition. Twin: `Constraint` in `shaders/lib/params.wgsl`.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct Constraint<R> {
+    /// Bit k: the velocity along axis k is prescribed.
+    pub prescribed: u32,
+    /// Points of the time course: first, number.
+    pub course_first: u32,
+    pub course_count: u32,
+    pub padding: u32,
+    /// Prescribed velocity where prescribed, else an acceleration added.
+    pub x: R,
+    pub y: R,
+    pub z: R,
+    pub unused: R,
+}
+
+/// The run's clock, kept where the steps run. Twin: `Clock` in `shaders/lib/params.wgsl`.
+///
+/// Time counts from the start of the present segment, so that f32 keeps its digits in long runs.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct Clock<R> {
+    /// Absolute time at which the segment began.
+    pub start: R,
+    pub elapsed: R,
+    pub elapsed_carry: R,
+    /// The next step.
+    pub step: R,
+    /// Length of the segment.
+    pub duration: R,
+    pub steps_left: u32,
+    pub steps_done: u32,
+    /// 0 once the segment is over: every pass then leaves the state alone.
+    pub running: u32,
+    /// 1 if the next step must build the neighbour list.
+    pub rebuild: u32,
+    /// Times that the list was built.
+    pub lists_built: u32,
+    /// What went wrong, as [`Fault`] numbers it; 0 while all is well.
+    pub fault: u32,
+}
+
+impl<R: Real> Clock<R> {
+    pub fn to_f64(self) -> Clock<f64> {
+        Clock {
+            start: self.start.f64(),
+            elapsed: self.elapsed.f64(),
+            elapsed_carry: self.elapsed_carry.f64(),
+            step: self.step.f64(),
+            duration: self.duration.f64(),
+            steps_left: self.steps_left,
+            steps_done: self.steps_done,
+            running: self.running,
+            rebuild: self.rebuild,
+            lists_built: self.lists_built,
+            fault: self.fault,
+        }
+    }
+}
+
+/// Reasons for a device to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    ListFull = 1,
+    NotFinite = 2,
+    Inverted = 3,
+}
+
+impl Fault {
+    pub fn from_number(number: u32) -> Option<Self> {
+        [Fault::ListFull, Fault::NotFinite, Fault::Inverted].into_iter().find(|fault| *fault as u32 == number)
+    }
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Fault::ListFull => {
+                "a particle has more neighbours than its list can hold; particles may have clumped, or raise formulation.list_capacity"
+            }
+            Fault::NotFinite => "a velocity or stress is no longer a number; the time step may be too long",
+            Fault::Inverted => "a particle's volume fell to zero or below; the time step may be too long or the load too great",
+        }
+    }
+}
+
+/// Low bits of a neighbour-list entry: the neighbour; the three bits above: the planes it is mirrored in.
+pub const NEIGHBOR_BITS: u32 = 29;
+pub const NEIGHBOR_MASK: u32 = (1 << NEIGHBOR_BITS) - 1;
+/// Cells that one block of the prefix sum covers; values that one block of a reduction covers.
+pub const SCAN_BLOCK: usize = 1024;
+pub const REDUCTION_BLOCK: usize = 256;
+
+/// All tables of a run.
+#[derive(Clone)]
+pub struct State<S: Space> {
+    pub method: Method,
+    pub params: Params<S::Real>,
+    pub clock: Clock<S::Real>,
+    pub bodies: Vec<Body<S::Real>>,
+    /// Weight of the kernel sums between bodies a and b at `a * body_count + b`.
+    pub coupling: Vec<S::Real>,
+    pub constraints: Vec<Constraint<S::Real>>,
+    /// Time and factor.
+    pub course: Vec<[S::Real; 2]>,
+    pub particles: Particles<S>,
+    /// Particles in each cell while they are being binned; zero otherwise.
+    pub cell_count: Vec<u32>,
+    /// Where each cell's particles begin in `cell_particles`; one more than there are cells.
+    pub cell_start: Vec<u32>,
+    /// Cells' particles before each block of the prefix sum.
+    pub cell_block: Vec<u32>,
+    pub cell_particles: Vec<u32>,
+    /// Row of `list_capacity` entries for each particle.
+    pub neighbors: Vec<u32>,
+    /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
+    pub block_bound: Vec<[S::Real; 4]>,
+}
+
+impl<S: Space> State<S> {
+    /// Entries of a particle's neighbour list.
+    #[inline(always)]
+    pub fn neighbors_of(&self, a: usize) -> &[u32] {
+        let first = a * self.params.list_capacity as usize;
+        &self.neighbors[first..first + self.particles.neighbor_count[a] as usize]
+    }
+    /// Index of a particle's body.
+    #[inline(always)]
+    pub fn body_index(&self, a: usize) -> usize {
+        if self.method.many_bodies { self.particles.body[a] as usize } else { 0 }
+    }
+    #[inline(always)]
+    pub fn body(&self, a: usize) -> &Body<S::Real> {
+        &self.bodies[self.body_index(a)]
+    }
+    /// Reference volume times reference density: constant.
+    #[inline(always)]
+    pub fn mass(&self, a: usize) -> S::Real {
+        self.particles.reference_volume[a] * self.body(a).density
+    }
+    #[inline(always)]
+    pub fn volume(&self, a: usize) -> S::Real {
+        self.particles.reference_volume[a] * (S::Real::of(1.0) + self.particles.volumetric_strain[a])
+    }
+    #[inline(always)]
+    pub fn density(&self, a: usize) -> S::Real {
+        self.body(a).density / (S::Real::of(1.0) + self.particles.volumetric_strain[a])
+    }
+    #[inline(always)]
+    pub fn position(&self, a: usize) -> S::Vec {
+        self.particles.reference_position[a] + self.particles.displacement[a]
+    }
+    /// Weight of the kernel sums between two particles' bodies.
+    #[inline(always)]
+    pub fn coupling_of(&self, a: usize, b: usize) -> S::Real {
+        self.coupling[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
+    }
+    /// Factor of a boundary condition's course at an absolute time.
+    pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {
+        let first = constraint.course_first as usize;
+        let points = &self.course[first..first + constraint.course_count as usize];
+        let Some(&[first_time, first_factor]) = points.first() else { return S::Real::of(1.0) };
+        if time <= first_time {
+            return first_factor;
+        }
+        for pair in points.windows(2) {
+            let ([t0, f0], [t1, f1]) = (pair[0], pair[1]);
+            if time < t1 {
+                return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
+            }
+        }
+        points[points.len() - 1][1]
+    }
+}

@@ -1,0 +1,4 @@
+//! Theory and sweeps that runs are compared with.
+
+pub mod eigen;
+pub mod von_neumann;
