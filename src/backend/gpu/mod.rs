@@ -157,14 +157,14 @@ impl Gpu {
     /// Sets the clock but for the counts that run through the whole run.
     fn write_clock(&self, start: f64, duration: f64, steps: u32) -> Result<(), String> {
         let (start, duration) = (start as f32, duration as f32);
-        let clock = Clock { start, duration, steps_left: steps, active: 1, rebuild: 1, ..Clock::default() };
+        let clock = Clock { start, duration, steps_left: steps, running: 1, rebuild: 1, ..Clock::default() };
         let bytes = bytes_of(&clock);
         let buffer = &self.tables.get("clock")?.buffer;
         let write = |begin: usize, end: usize| {
             self.link.queue.write_buffer(buffer, begin as u64, &bytes[begin..end]);
         };
         write(0, offset_of!(Clock<f32>, steps_done));
-        write(offset_of!(Clock<f32>, active), offset_of!(Clock<f32>, lists_built));
+        write(offset_of!(Clock<f32>, running), offset_of!(Clock<f32>, lists_built));
         write(offset_of!(Clock<f32>, fault), bytes.len());
         self.link.check()
     }

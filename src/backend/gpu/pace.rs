@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     fn clock(elapsed: f64, steps_done: u32) -> Clock<f64> {
-        Clock { duration: 1.0, elapsed, step: 1e-3, steps_left: 10_000, steps_done, active: 1, ..Clock::default() }
+        Clock { duration: 1.0, elapsed, step: 1e-3, steps_left: 10_000, steps_done, running: 1, ..Clock::default() }
     }
 
     #[test]
