@@ -30,8 +30,11 @@ fn normal<S: Space>(plane: &[S::Real; 4]) -> S::Vec {
     n
 }
 
+// Few pairs cross a mirror plane: kept out of line, so that the pair loops stay small enough to optimise.
+
 /// Mirrors a vector, a velocity or displacement, in each plane of the mask.
-#[inline(always)]
+#[cold]
+#[inline(never)]
 pub fn mirror_vector<S: Space>(params: &Params<S::Real>, image: u32, mut v: S::Vec) -> S::Vec {
     for (k, plane) in params.planes.iter().enumerate() {
         if image >> k & 1 == 1 {
@@ -43,7 +46,8 @@ pub fn mirror_vector<S: Space>(params: &Params<S::Real>, image: u32, mut v: S::V
 }
 
 /// Mirrors a point in each plane of the mask.
-#[inline(always)]
+#[cold]
+#[inline(never)]
 pub fn mirror_point<S: Space>(params: &Params<S::Real>, image: u32, mut x: S::Vec) -> S::Vec {
     for (k, plane) in params.planes.iter().enumerate() {
         if image >> k & 1 == 1 {
@@ -55,7 +59,8 @@ pub fn mirror_point<S: Space>(params: &Params<S::Real>, image: u32, mut x: S::Ve
 }
 
 /// Mirrors a tensor: H M H with H = 1 - 2 n (x) n.
-#[inline(always)]
+#[cold]
+#[inline(never)]
 pub fn mirror_tensor<S: Space>(params: &Params<S::Real>, image: u32, mut m: S::Mat) -> S::Mat {
     for (k, plane) in params.planes.iter().enumerate() {
         if image >> k & 1 == 1 {
@@ -96,42 +101,73 @@ pub fn separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
 /// Neighbours that are evaluated together: enough for the widest vector registers.
 const LANES: usize = 8;
 
-/// Calls `visit` for every neighbour of particle a, in the order of its list.
+/// Up to [`LANES`] neighbours of one particle, their kernel gradients evaluated together.
+pub struct Block<'a, S: Space> {
+    entries: &'a [u32],
+    x: [S::Vec; LANES],
+    distance: [S::Real; LANES],
+    h: [S::Real; LANES],
+    gradient: [S::Real; LANES],
+}
+
+/// The neighbours of particle a, in the order of its list, as blocks:
+/// `for block in blocks::<S, K>(state, a) { for pair in block.pairs() { … } }`.
 ///
-/// Separations are gathered for [`LANES`] neighbours, then the kernel is evaluated for all of them at once,
-/// which the compiler turns into vector instructions; neighbours beyond the kernel's support get a zero gradient.
+/// Two plain loops, because a visitor passed as a closure is not inlined once its body is large. Separations
+/// are gathered one by one; then the kernel is evaluated for the whole block, which the compiler turns into
+/// vector instructions. Neighbours beyond the kernel's support get a zero gradient.
 #[inline(always)]
-pub fn for_each_pair<S: Space, K: Kernel>(state: &State<S>, a: usize, mut visit: impl FnMut(Pair<S>)) {
+pub fn blocks<S: Space, K: Kernel>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<'_, S>> {
     let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
-    let half = S::Real::of(0.5);
     let h_a = state.body(a).smoothing_length;
-    for entries in state.neighbors_of(a).chunks(LANES) {
-        let mut x = [S::Vec::default(); LANES];
-        let mut h = [h_a; LANES];
-        let mut square = [S::Real::of(1.0); LANES];
-        for (lane, &entry) in entries.iter().enumerate() {
-            x[lane] = separation(state, a, entry);
-            square[lane] = S::inner(x[lane], x[lane]);
-            if state.method.many_bodies {
-                h[lane] = half * (h_a + state.body((entry & NEIGHBOR_MASK) as usize).smoothing_length);
+    let own = (S::Real::of(1.0) / h_a, kernel.gradient_factor(h_a));
+    state.neighbors_of(a).chunks(LANES).map(move |entries| gather::<S, K>(state, a, entries, kernel, own))
+}
+
+#[inline(always)]
+fn gather<'a, S: Space, K: Kernel>(
+    state: &State<S>,
+    a: usize,
+    entries: &'a [u32],
+    kernel: Scaled<S::Real>,
+    own: (S::Real, S::Real),
+) -> Block<'a, S> {
+    let h_a = state.body(a).smoothing_length;
+    let mut x = [S::Vec::default(); LANES];
+    let mut h = [h_a; LANES];
+    let (mut inverse, mut factor) = ([own.0; LANES], [own.1; LANES]);
+    let mut square = [S::Real::of(1.0); LANES];
+    for (lane, &entry) in entries.iter().enumerate() {
+        x[lane] = separation(state, a, entry);
+        square[lane] = S::inner(x[lane], x[lane]);
+        if state.method.many_bodies {
+            let h_b = state.body((entry & NEIGHBOR_MASK) as usize).smoothing_length;
+            if h_b != h_a {
+                h[lane] = S::Real::of(0.5) * (h_a + h_b);
+                (inverse[lane], factor[lane]) = (S::Real::of(1.0) / h[lane], kernel.gradient_factor(h[lane]));
             }
         }
-        let mut distance = [S::Real::default(); LANES];
-        let mut gradient = [S::Real::default(); LANES];
-        for lane in 0..LANES {
-            distance[lane] = square[lane].sqrt();
-            gradient[lane] = kernel.gradient::<K>(distance[lane], h[lane]);
-        }
-        for (lane, &entry) in entries.iter().enumerate() {
-            visit(Pair {
-                b: (entry & NEIGHBOR_MASK) as usize,
-                image: entry >> NEIGHBOR_BITS,
-                x: x[lane],
-                distance: distance[lane],
-                h: h[lane],
-                gradient: gradient[lane],
-            });
-        }
+    }
+    let mut distance = [S::Real::default(); LANES];
+    let mut gradient = [S::Real::default(); LANES];
+    for lane in 0..LANES {
+        distance[lane] = square[lane].sqrt();
+        gradient[lane] = kernel.gradient_at::<K>(distance[lane], h[lane], inverse[lane], factor[lane]);
+    }
+    Block { entries, x, distance, h, gradient }
+}
+
+impl<S: Space> Block<'_, S> {
+    #[inline(always)]
+    pub fn pairs(&self) -> impl Iterator<Item = Pair<S>> {
+        self.entries.iter().enumerate().map(|(lane, &entry)| Pair {
+            b: (entry & NEIGHBOR_MASK) as usize,
+            image: entry >> NEIGHBOR_BITS,
+            x: self.x[lane],
+            distance: self.distance[lane],
+            h: self.h[lane],
+            gradient: self.gradient[lane],
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 //! Twin: shaders/pass/correct_gradient.wgsl
 
 use super::Stage;
-use crate::pair::{for_each_pair, pair_coupling, safe_inverse};
+use crate::pair::{blocks, pair_coupling, safe_inverse};
 use crate::smoothing::Kernel;
 use crate::smoothing::with_kernel;
 use crate::state::State;
@@ -22,9 +22,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn moment<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
     let mut moment = S::Mat::default();
-    for_each_pair::<S, K>(state, a, |pair| {
-        let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
-        moment = moment - S::outer(pair.x, pair.x * weight);
-    });
+    for block in blocks::<S, K>(state, a) {
+        for pair in block.pairs() {
+            let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+            moment = moment - S::outer(pair.x, pair.x * weight);
+        }
+    }
     moment
 }

@@ -9,7 +9,7 @@
 //! Twin: shaders/pass/force.wgsl
 
 use super::Stage;
-use crate::pair::{Pair, for_each_pair, mirror_tensor, pair_coupling, velocity_difference};
+use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
 use crate::scene::file::{ArtificialForm, Gradient};
 use crate::smoothing::with_kernel;
 use crate::smoothing::{Kernel, Scaled};
@@ -62,43 +62,47 @@ fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> Sums<S> {
     let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
     let method = &state.method;
     let half = S::Real::of(0.5);
+    let own = state.particles.specific_stress.get(a).copied().unwrap_or_default();
     let mut sums = Sums::default();
-    for_each_pair::<S, K>(state, a, |pair| {
-        let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
-        let gradient = pair.x * pair.gradient;
-        let mut force = if method.gradient == Gradient::Adjoint {
-            let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) / state.density(a);
-            S::mat_vec(corrected_stress(state, a, &pair), gradient) * weight
-        } else {
-            S::mat_vec(specific_stress(state, a, &pair), gradient) * mass
-        };
-        if method.artificial_stress.is_some() {
-            let weight = kernel.weight::<K>(pair.distance, pair.h) / state.params.artificial_weight;
-            force += artificial_stress(state, a, &pair, gradient) * (mass * power(weight, state.params.artificial_exponent));
+    for block in blocks::<S, K>(state, a) {
+        for pair in block.pairs() {
+            let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+            let gradient = pair.x * pair.gradient;
+            let mut force = if method.gradient == Gradient::Adjoint {
+                let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) / state.density(a);
+                S::mat_vec(corrected_stress(state, a, &pair), gradient) * weight
+            } else {
+                specific_stress(state, own, &pair, gradient) * mass
+            };
+            if method.artificial_stress.is_some() {
+                let weight = kernel.weight::<K>(pair.distance, pair.h) / state.params.artificial_weight;
+                force += artificial_stress(state, a, &pair, gradient) * (mass * power(weight, state.params.artificial_exponent));
+            }
+            let mut friction = S::Vec::default();
+            if method.viscosity {
+                friction = gradient * (-mass * viscosity(state, a, &pair));
+                force += friction;
+            }
+            sums.acceleration += force;
+            if method.internal_energy || method.dissipated_energy {
+                let v_ba = velocity_difference(state, a, &pair);
+                sums.internal_power += half * S::inner(v_ba, force);
+                sums.dissipated_power += half * S::inner(v_ba, friction);
+            }
         }
-        let mut friction = S::Vec::default();
-        if method.viscosity {
-            friction = gradient * (-mass * viscosity(state, a, &pair));
-            force += friction;
-        }
-        sums.acceleration += force;
-        if method.internal_energy || method.dissipated_energy {
-            let v_ba = velocity_difference(state, a, &pair);
-            sums.internal_power += half * S::inner(v_ba, force);
-            sums.dissipated_power += half * S::inner(v_ba, friction);
-        }
-    });
+    }
     sums
 }
 
-/// sigma_a/rho_a^2 + sigma_b/rho_b^2
+/// (sigma_a/rho_a^2 + sigma_b/rho_b^2) grad_a W_ab
 #[inline(always)]
-fn specific_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Mat {
+fn specific_stress<S: Space>(state: &State<S>, own: S::Sym, pair: &Pair<S>, gradient: S::Vec) -> S::Vec {
     let stress = &state.particles.specific_stress;
     if pair.image == 0 {
-        return S::mat_of_sym(stress[a] + stress[pair.b]);
+        return S::sym_vec(own + stress[pair.b], gradient);
     }
-    S::mat_of_sym(stress[a]) + mirror_tensor::<S>(&state.params, pair.image, S::mat_of_sym(stress[pair.b]))
+    let image = mirror_tensor::<S>(&state.params, pair.image, S::mat_of_sym(stress[pair.b]));
+    S::sym_vec(own, gradient) + S::mat_vec(image, gradient)
 }
 
 /// sigma_a K_a^-1 + sigma_b K_b^-1

@@ -3,7 +3,7 @@
 //! Twin: shaders/pass/smooth_velocity.wgsl
 
 use super::Stage;
-use crate::pair::{for_each_pair, pair_coupling, velocity_difference};
+use crate::pair::{blocks, pair_coupling, velocity_difference};
 use crate::smoothing::with_kernel;
 use crate::smoothing::{Kernel, Scaled};
 use crate::state::State;
@@ -24,10 +24,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 fn smooth<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Vec {
     let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
     let mut sum = S::Vec::default();
-    for_each_pair::<S, K>(state, a, |pair| {
-        let density = S::Real::of(0.5) * (state.density(a) + state.density(pair.b));
-        let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
-        sum += velocity_difference(state, a, &pair) * (mass / density * kernel.weight::<K>(pair.distance, pair.h));
-    });
+    for block in blocks::<S, K>(state, a) {
+        for pair in block.pairs() {
+            let density = S::Real::of(0.5) * (state.density(a) + state.density(pair.b));
+            let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+            sum += velocity_difference(state, a, &pair) * (mass / density * kernel.weight::<K>(pair.distance, pair.h));
+        }
+    }
     state.particles.velocity[a] + sum * state.params.smoothing_weight
 }

@@ -8,7 +8,7 @@
 //! which makes it exact for linear velocity fields (Bonet & Lok 1999).
 
 use super::Stage;
-use crate::pair::{for_each_pair, pair_coupling, safe_inverse, velocity_difference};
+use crate::pair::{blocks, pair_coupling, safe_inverse, velocity_difference};
 use crate::scene::file::Gradient;
 use crate::smoothing::Kernel;
 use crate::smoothing::with_kernel;
@@ -34,21 +34,25 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn plain_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for_each_pair::<S, K>(state, a, |pair| {
-        let weight = state.mass(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
-        sum += S::outer(velocity_difference(state, a, &pair), pair.x * weight);
-    });
+    for block in blocks::<S, K>(state, a) {
+        for pair in block.pairs() {
+            let weight = state.mass(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+            sum += S::outer(velocity_difference(state, a, &pair), pair.x * weight);
+        }
+    }
     sum * (S::Real::of(1.0) / state.density(a))
 }
 
 #[inline(always)]
 fn corrected_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
     let (mut sum, mut moment) = (S::Mat::default(), S::Mat::default());
-    for_each_pair::<S, K>(state, a, |pair| {
-        let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
-        let gradient = pair.x * weight;
-        sum += S::outer(velocity_difference(state, a, &pair), gradient);
-        moment = moment - S::outer(pair.x, gradient);
-    });
+    for block in blocks::<S, K>(state, a) {
+        for pair in block.pairs() {
+            let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
+            let gradient = pair.x * weight;
+            sum += S::outer(velocity_difference(state, a, &pair), gradient);
+            moment = moment - S::outer(pair.x, gradient);
+        }
+    }
     S::mat_mat(sum, safe_inverse::<S>(moment))
 }

@@ -1,7 +1,7 @@
 //! rho_a = sum m_b W_ab, the particle itself included, Fuller (2.22). Twin: shaders/pass/sum_density.wgsl
 
 use super::Stage;
-use crate::pair::{for_each_pair, pair_coupling};
+use crate::pair::{blocks, pair_coupling};
 use crate::smoothing::with_kernel;
 use crate::smoothing::{Kernel, Scaled};
 use crate::state::State;
@@ -20,10 +20,12 @@ fn sum<S: Space, K: Kernel>(state: &mut State<S>) {
     super::write(&mut strain, |a, slot| {
         let body = state.body(a);
         let mut density = state.mass(a) * kernel.weight::<K>(S::Real::of(0.0), body.smoothing_length);
-        for_each_pair::<S, K>(state, a, |pair| {
-            let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
-            density += mass * kernel.weight::<K>(pair.distance, pair.h);
-        });
+        for block in blocks::<S, K>(state, a) {
+            for pair in block.pairs() {
+                let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
+                density += mass * kernel.weight::<K>(pair.distance, pair.h);
+            }
+        }
         *slot = body.density / density - S::Real::of(1.0);
     });
     state.particles.volumetric_strain = strain;

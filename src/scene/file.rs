@@ -58,6 +58,14 @@ pub struct File {
     pub variant: BTreeMap<String, toml::Table>,
 }
 
+impl File {
+    /// Reach of the neighbour list beyond the kernel's, over h.
+    pub fn list_margin(&self) -> f64 {
+        let usual = if self.dimension == 3 { 0.08 } else { 0.15 };
+        self.formulation.list_margin.unwrap_or(usual)
+    }
+}
+
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Units {
     #[default]
@@ -162,8 +170,9 @@ pub struct Formulation {
     pub internal_energy: bool,
     /// Add up what viscosity turns into heat.
     pub dissipated_energy: bool,
-    /// Reach of the neighbour list beyond the kernel's, over h.
-    pub list_margin: f64,
+    /// Reach of the neighbour list beyond the kernel's, over h. In space more pairs pay for it than in the
+    /// plane, so there it is smaller unless given.
+    pub list_margin: Option<f64>,
     /// Entries that a particle's list can hold; from the packing unless given.
     pub list_capacity: Option<u32>,
 }
@@ -181,7 +190,7 @@ impl Default for Formulation {
             artificial_stress: None,
             internal_energy: false,
             dissipated_energy: false,
-            list_margin: 0.15,
+            list_margin: None,
             list_capacity: None,
         }
     }

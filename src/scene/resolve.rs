@@ -65,9 +65,8 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
             format!("frames (time between pictures) must not be negative, found {frames}")
         })?;
     }
-    refuse.unless((0.02..=1.0).contains(&f.list_margin), &["formulation", "list_margin"], || {
-        format!("list_margin must lie between 0.02 and 1 smoothing lengths, found {}", f.list_margin)
-    })?;
+    let fits = f.list_margin.is_none_or(|margin| (0.02..=1.0).contains(&margin));
+    refuse.unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
     for (weight, key) in [(f.xsph, "xsph"), (f.velocity_filter, "velocity_filter")] {
         let fits = weight.is_none_or(|w| (0.0..=1.0).contains(&w));
         refuse.unless(fits, &["formulation", key], || format!("{key} must lie between 0 and 1"))?;
@@ -314,7 +313,7 @@ fn period(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<[f64; 3], Str
         format!("periodic takes {} lengths (0 for an open axis)", file.dimension)
     })?;
     period[..file.dimension].copy_from_slice(lengths);
-    let reach = bodies.iter().map(|b| b.smoothing_length).fold(0.0, f64::max) * (2.0 + file.formulation.list_margin);
+    let reach = bodies.iter().map(|b| b.smoothing_length).fold(0.0, f64::max) * (2.0 + file.list_margin());
     for &length in lengths {
         refuse.unless(length == 0.0 || length > 3.01 * reach, &["periodic"], || {
             format!("a periodic box must be longer than three reaches of the neighbour list, {:.4}; found {length}", 3.01 * reach)

@@ -96,7 +96,7 @@ impl Scene {
     }
 
     fn reach(&self) -> f64 {
-        self.smoothing_length() * (2.0 + self.file.formulation.list_margin)
+        self.smoothing_length() * (2.0 + self.file.list_margin())
     }
 
     /// Entries a neighbour list needs: what the densest packing holds within reach, and half as much again
@@ -156,7 +156,7 @@ impl Scene {
             body_force_z: component(2),
             normalisation: real(f.smoothing.normalisation(self.dimension())),
             reach: real(self.reach()),
-            slack: real(0.5 * f.list_margin * self.smoothing_length()),
+            slack: real(0.5 * self.file.list_margin() * self.smoothing_length()),
             alpha: real(viscosity.alpha),
             beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
             softening: real(viscosity.softening),

@@ -111,7 +111,17 @@ impl<R: Real> Scaled<R> {
     /// particle may meet its own mirror image.
     #[inline(always)]
     pub fn gradient<K: Kernel>(&self, r: R, h: R) -> R {
-        self.normalisation * K::slope(r / h) / (self.power(h) * h * r.max(R::of(1e-6) * h))
+        self.gradient_at::<K>(r, h, R::of(1.0) / h, self.gradient_factor(h))
+    }
+    /// What [`Self::gradient`] needs of h alone.
+    #[inline(always)]
+    pub fn gradient_factor(&self, h: R) -> R {
+        self.normalisation / (self.power(h) * h)
+    }
+    /// The same with the parts that depend on h alone given.
+    #[inline(always)]
+    pub fn gradient_at<K: Kernel>(&self, r: R, h: R, inverse: R, factor: R) -> R {
+        factor * K::slope(r * inverse) / r.max(R::of(1e-6) * h)
     }
 }
 

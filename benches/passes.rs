@@ -1,0 +1,120 @@
+//! Time of every pass, particle-updates per core-second, and bytes per second beside a measured copy.
+//!
+//! `cargo bench --bench passes -- [particles …] [--gpu] [--method elastic|full]`
+//!
+//! The body is a cube on a cubic lattice with h = 1.22 spacings, about 60 neighbours, kicked by a smooth wave.
+//! Machines are shared, so times on the CPU path are processor seconds, and the best of several rounds counts.
+
+use lithosph::backend::cpu::processor_seconds;
+use lithosph::backend::{Backend, Choice, open};
+use lithosph::particles::Field;
+use lithosph::scene::Scene;
+use lithosph::step;
+use std::time::Instant;
+
+const ROUNDS: usize = 3;
+
+fn scene(particles: usize, method: &str) -> Scene {
+    let side = (particles as f64).cbrt().round();
+    let extras = match method {
+        "full" => "viscosity = { alpha = 1.0 }\nxsph = 0.5\nartificial_stress = { epsilon = 0.3 }",
+        _ => "",
+    };
+    let text = format!(
+        r#"
+title = "benchmark cube"
+dimension = 3
+spacing = 0.01
+duration = 1.0
+[[body]]
+name = "cube"
+shape = {{ block = {{ min = [0, 0, 0], max = [{l}, {l}, {l}] }} }}
+anchor = [0.005, 0.005, 0.005]
+material = "rubber"
+motion = {{ wave = {{ amplitude = [0.1, 0, 0], wave_vector = [{k}, 0, 0] }} }}
+[material.rubber]
+density = 1000
+youngs_modulus = 1e7
+poisson_ratio = 0.3
+[formulation]
+smoothing_length = 1.22
+{extras}
+"#,
+        l = side * 0.01,
+        k = std::f64::consts::PI / (side * 0.01),
+    );
+    Scene::parse(&text, "cube", None, &[]).expect("the benchmark's scene is sound")
+}
+
+/// Bytes a second, read and written, of a copy much larger than the caches, on all cores.
+fn copy_bandwidth() -> f64 {
+    use rayon::prelude::*;
+    let source = vec![1u64; 1 << 25];
+    let mut target = vec![0u64; 1 << 25];
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        let begin = Instant::now();
+        target.par_chunks_mut(1 << 16).zip(source.par_chunks(1 << 16)).for_each(|(t, s)| t.copy_from_slice(s));
+        best = best.min(begin.elapsed().as_secs_f64());
+    }
+    16.0 * source.len() as f64 / best
+}
+
+fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> {
+    let scene = scene(particles, method);
+    let count = scene.particles.len() as f64;
+    let mut backend = open(&scene, choice)?;
+    backend.begin_segment(0.0, 1.0, u32::MAX, true)?;
+    // A first look warms caches and compiles shaders.
+    let warm = backend.advance()?;
+    let (mut wall, mut busy, mut seen) = (f64::INFINITY, f64::INFINITY, warm.steps_done);
+    for _ in 0..ROUNDS {
+        let (begin, used) = (Instant::now(), processor_seconds());
+        let clock = backend.advance()?;
+        let steps = f64::from(clock.steps_done - seen);
+        seen = clock.steps_done;
+        wall = wall.min(begin.elapsed().as_secs_f64() / steps);
+        busy = busy.min((processor_seconds() - used) / steps);
+    }
+    let neighbors = backend.fetch(&[Field::NeighborCount])?[&Field::NeighborCount].iter().sum::<f64>() / count;
+    println!("\n{count} particles, {method}, {neighbors:.1} neighbours in reach, {}", backend.describe());
+    println!("{:.0} bytes a particle", backend.bytes() as f64 / count);
+    println!("step {:.3} ms: {:.3e} particle-updates a second, {:.3e} a core-second", wall * 1e3, count / wall, count / busy);
+    let bandwidth = copy_bandwidth();
+    // Each particle's tables once in and once out is the least that a step can move.
+    let least = backend.bytes() as f64 / wall;
+    println!(
+        "tables once a step: {:.2} GB/s, {:.0} % of a copy's {:.1} GB/s",
+        least / 1e9,
+        100.0 * least / bandwidth,
+        bandwidth / 1e9
+    );
+    table(&mut *backend, &scene, count)
+}
+
+fn table(backend: &mut dyn Backend, scene: &Scene, count: f64) -> Result<(), String> {
+    let calls = step::step(&scene.method);
+    let times = backend.time_passes(&calls, 3)?;
+    println!("{:<20} {:>10} {:>14}", "pass", "ms", "ns a particle");
+    for (name, seconds) in times {
+        println!("{name:<20} {:>10.3} {:>14.2}", seconds * 1e3, seconds / count * 1e9);
+    }
+    Ok(())
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|w| w != "--bench").collect();
+    let gpu = words.iter().any(|w| w == "--gpu");
+    let after = |key: &str| words.iter().position(|w| w == key).and_then(|k| words.get(k + 1)).cloned();
+    let method = after("--method").unwrap_or_else(|| "elastic".into());
+    let mut sizes: Vec<usize> = words.iter().filter_map(|w| w.parse().ok()).collect();
+    if sizes.is_empty() {
+        sizes = vec![10_000, 100_000];
+    }
+    for size in sizes {
+        let choice = if gpu { Choice::Gpu(None) } else { Choice::Cpu };
+        if let Err(error) = bench(size, &choice, &method) {
+            eprintln!("{size} particles: {error}");
+        }
+    }
+}

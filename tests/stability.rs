@@ -1,0 +1,325 @@
+//! The step against linear theory: on a uniform, stressed lattice every run must grow at the rate that von
+//! Neumann's analysis of the same discrete equations gives, and a stable one must not grow.
+
+use lithosph::backend::Choice;
+use lithosph::run::{Finished, Options, run};
+use lithosph::scene::Scene;
+use lithosph::smoothing::Smoothing;
+use lithosph::study::von_neumann::{
+    ArtificialStress, Equations, Gradient, Lattice, Medium, Mode, fixed_wave_vectors, periodic_wave_vectors,
+};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Law {
+    /// K = 1.
+    Fluid,
+    /// E = 1, nu = 0.3.
+    Elastic,
+}
+
+/// A pre-stressed lattice of spacing 1 and density 1 when unstressed.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    dimension: usize,
+    law: Law,
+    /// Smoothing length over spacing.
+    h: f64,
+    relative_volume: f64,
+    /// S_xx = -S_yy.
+    deviator: f64,
+    /// Coefficient and whether it is the principal form.
+    artificial: Option<(f64, bool)>,
+    gradient: Gradient,
+    /// Particles along each axis.
+    cells: [usize; 3],
+}
+
+impl Case {
+    const fn new(dimension: usize, law: Law, h: f64, relative_volume: f64) -> Self {
+        let cells = [[144, 1, 1], [42, 42, 1], [42, 10, 10]][dimension - 1];
+        Self { dimension, law, h, relative_volume, deviator: 0.0, artificial: None, gradient: Gradient::Plain, cells }
+    }
+    const fn scalar(self, epsilon: f64) -> Self {
+        Self { artificial: Some((epsilon, false)), ..self }
+    }
+    const fn principal(self, epsilon: f64) -> Self {
+        Self { artificial: Some((epsilon, true)), ..self }
+    }
+    const fn gradient(self, gradient: Gradient) -> Self {
+        Self { gradient, ..self }
+    }
+    const fn deviator(self, deviator: f64) -> Self {
+        Self { deviator, ..self }
+    }
+
+    fn moduli(&self) -> (f64, f64) {
+        match self.law {
+            Law::Fluid => (1.0, 0.0),
+            Law::Elastic => (1.0 / 1.2, 1.0 / 2.6),
+        }
+    }
+
+    /// Speed of longitudinal waves, as the time step takes it.
+    fn sound_speed(&self) -> f64 {
+        let (bulk, shear) = self.moduli();
+        (bulk + 4.0 / 3.0 * shear).sqrt()
+    }
+
+    fn equations(&self) -> Equations {
+        let (bulk, shear) = self.moduli();
+        let mut medium = Medium::at_volume(self.relative_volume, 1.0, bulk, shear);
+        medium.deviator[..2].copy_from_slice(&[self.deviator, -self.deviator]);
+        let artificial_stress = match self.artificial {
+            None => ArtificialStress::None,
+            Some((epsilon, false)) => ArtificialStress::Scalar { epsilon, exponent: 4.0, spacing: 1.0 },
+            Some((epsilon, true)) => ArtificialStress::Principal { epsilon, exponent: 4.0, spacing: 1.0 },
+        };
+        let lattice =
+            Lattice { dimension: self.dimension, spacing: 1.0, smoothing: Smoothing::CubicSpline, smoothing_length: self.h };
+        Equations::new(lattice, medium, artificial_stress, self.gradient)
+    }
+
+    /// The fastest wave of the periodic box.
+    fn fastest(&self) -> ([f64; 3], Mode) {
+        let equations = self.equations();
+        let (wave, _) = equations.fastest(&periodic_wave_vectors(self.cells, 1.0));
+        (wave, equations.mode(wave))
+    }
+
+    fn list(&self, numbers: impl Fn(usize) -> f64) -> String {
+        let words: Vec<String> = (0..self.dimension).map(|k| format!("{:.17e}", numbers(k))).collect();
+        format!("[{}]", words.join(", "))
+    }
+
+    /// The scene without what starts its motion; `motion` is a line of the body.
+    fn text(&self, motion: &str, duration: f64, rows: usize) -> String {
+        let Self { dimension, h, relative_volume, deviator, .. } = *self;
+        let material = match self.law {
+            Law::Fluid => "law = 'fluid'\nbulk_modulus = 1.0",
+            Law::Elastic => "youngs_modulus = 1.0\npoisson_ratio = 0.3",
+        };
+        let gradient = format!("{:?}", self.gradient).to_lowercase();
+        let artificial = self.artificial.map_or_else(String::new, |(epsilon, principal)| {
+            let form = if principal { "principal" } else { "scalar" };
+            format!("artificial_stress = {{ form = '{form}', epsilon = {epsilon:?} }}")
+        });
+        let stress = if deviator == 0.0 {
+            String::new()
+        } else {
+            format!("deviatoric_stress = [{deviator:?}, {:?}, 0.0, 0.0, 0.0, 0.0]", -deviator)
+        };
+        let (low, high) = (self.list(|_| -0.5), self.list(|k| self.cells[k] as f64 - 0.5));
+        format!(
+            "title = 'a stressed lattice'
+            dimension = {dimension}
+            units = 'dimensionless'
+            spacing = 1.0
+            duration = {duration:.17e}
+            [[body]]
+            name = 'block'
+            shape = {{ block = {{ min = {low}, max = {high} }} }}
+            material = 'medium'
+            relative_volume = {relative_volume:?}
+            {stress}
+            {motion}
+            [material.medium]
+            density = 1.0
+            {material}
+            [formulation]
+            smoothing_length = {h:?}
+            gradient = '{gradient}'
+            {artificial}
+            [output]
+            series = {:.17e}
+            frames = 0
+            [observe]
+            speed = {{ kind = 'rms_speed' }}
+            nearest = {{ kind = 'least_distance' }}
+            ",
+            duration / rows as f64
+        )
+    }
+
+    fn periodic(&self) -> String {
+        format!("periodic = {}\n", self.list(|k| self.cells[k] as f64))
+    }
+}
+
+fn finished(text: &str) -> Finished {
+    let scene = Scene::parse(text, "stability", None, &[]).unwrap();
+    let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
+    run(&scene, &options).unwrap_or_else(|stop| panic!("{stop:?}\n{text}"))
+}
+
+/// Slope of ln speed over the rows from a time on.
+fn slope(finished: &Finished, from: f64) -> f64 {
+    let rows = finished.table.times.iter().zip(&finished.table.columns["speed"]);
+    let rows: Vec<(f64, f64)> = rows.filter(|r| *r.0 >= from).map(|(&t, v)| (t, v.ln())).collect();
+    let n = rows.len() as f64;
+    let (t, y) = (rows.iter().map(|r| r.0).sum::<f64>() / n, rows.iter().map(|r| r.1).sum::<f64>() / n);
+    rows.iter().map(|r| (r.0 - t) * (r.1 - y)).sum::<f64>() / rows.iter().map(|r| (r.0 - t).powi(2)).sum::<f64>()
+}
+
+/// Largest velocity of the seeded wave; after e^9 it still moves particles by less than 1e-3 spacings.
+const SEED: f64 = 1e-10;
+/// v = SEED cosh(rate t): after three e-foldings it is the exponential to 0.25 %.
+const TRANSIENT: f64 = 3.0;
+const FITTED: f64 = 6.0;
+
+/// Runs a periodic box seeded with its fastest mode; measured and theoretical growth rates over c/dx.
+fn rates(case: &Case) -> (f64, f64) {
+    let (wave, mode) = case.fastest();
+    assert!(mode.rate > 0.0, "{case:?} is stable: nothing to measure");
+    assert!(mode.frequency < 0.01 * mode.rate, "{case:?} oscillates: {mode:?}");
+    // At the zone's edge a sine is zero on every particle.
+    let phase = std::f64::consts::FRAC_PI_4;
+    let amplitude = case.list(|k| SEED * mode.polarisation[k]);
+    let motion =
+        format!("motion = {{ wave = {{ amplitude = {amplitude}, wave_vector = {}, phase = {phase:?} }} }}", case.list(|k| wave[k]));
+    let duration = (TRANSIENT + FITTED) / mode.rate;
+    let finished = finished(&(case.periodic() + &case.text(&motion, duration, 36)));
+    let measured = slope(&finished, TRANSIENT / mode.rate);
+    (measured / case.sound_speed(), mode.rate / case.sound_speed())
+}
+
+fn compare(cases: &[Case]) {
+    for case in cases {
+        let begin = std::time::Instant::now();
+        let (measured, theory) = rates(case);
+        let error = measured / theory - 1.0;
+        println!("{measured:.5} {theory:.5} {:+.2} % {:.1} s {case:?}", 100.0 * error, begin.elapsed().as_secs_f64());
+        assert!(error.abs() < 0.01, "grew at {measured} c/dx, theory says {theory}: {case:?}");
+    }
+}
+
+use Law::{Elastic, Fluid};
+
+#[test]
+fn rows_of_particles_grow_as_theory_says() {
+    compare(&[
+        Case::new(1, Fluid, 1.3, 1.05),
+        Case::new(1, Fluid, 0.7, 1.001),
+        Case::new(1, Fluid, 1.3, 1.01).scalar(1.3),
+        Case::new(1, Elastic, 1.8, 1.03),
+        Case::new(1, Elastic, 1.3, 1.02).principal(1.3),
+    ]);
+}
+
+#[test]
+fn fluids_grow_as_theory_says() {
+    compare(&[
+        Case::new(2, Fluid, 1.3, 1.01),
+        Case::new(2, Fluid, 1.5, 1.05).scalar(0.3),
+        Case::new(2, Fluid, 1.8, 1.001).scalar(1.0),
+        Case::new(2, Fluid, 1.5, 1.03).gradient(Gradient::Adjoint),
+    ]);
+}
+
+#[test]
+fn elastic_solids_grow_as_theory_says() {
+    compare(&[
+        Case::new(2, Elastic, 1.3, 1.05),
+        Case::new(2, Elastic, 1.5, 1.03).principal(0.3),
+        Case::new(2, Elastic, 1.3, 1.001).principal(1.0),
+        Case::new(2, Elastic, 1.8, 1.01).scalar(1.0),
+        Case::new(2, Elastic, 1.3, 1.03).gradient(Gradient::Corrected),
+        Case::new(2, Elastic, 1.3, 1.03).gradient(Gradient::Adjoint),
+        Case::new(2, Elastic, 1.5, 1.02).gradient(Gradient::Adjoint).principal(1.0),
+    ]);
+}
+
+/// A stretched strip: its stress has two principal values and turns with the material.
+#[test]
+fn a_deviator_grows_as_theory_says() {
+    compare(&[
+        Case::new(2, Elastic, 1.3, 1.02).deviator(0.01),
+        Case::new(2, Elastic, 1.3, 1.02).deviator(0.01).principal(0.3),
+        Case::new(2, Elastic, 1.3, 1.02).deviator(0.01).gradient(Gradient::Adjoint),
+    ]);
+}
+
+/// Neighbours that shear past each other in a compressed lattice cost no energy.
+#[test]
+fn compression_grows_as_theory_says() {
+    compare(&[
+        Case::new(2, Fluid, 1.5, 0.97),
+        Case::new(2, Elastic, 1.3, 0.95),
+        Case::new(2, Elastic, 1.8, 0.95).gradient(Gradient::Adjoint),
+    ]);
+}
+
+#[test]
+fn a_block_grows_as_theory_says() {
+    compare(&[Case::new(3, Elastic, 1.3, 1.03)]);
+}
+
+/// Growth rate over c/dx of a box whose middle particle is kicked, from its first speed to the largest of the
+/// second half of the run.
+fn growth_of_noise(case: &Case, duration: f64) -> f64 {
+    let text = case.periodic() + &case.text("", duration, 40) + &kick(case);
+    let speed = &finished(&text).table.columns["speed"];
+    let late = speed[speed.len() / 2..].iter().copied().fold(0.0, f64::max);
+    (late / speed[0]).ln() / duration / case.sound_speed()
+}
+
+fn kick(case: &Case) -> String {
+    let middle = case.list(|k| (case.cells[k] / 2) as f64);
+    format!("[[kick]]\nat = {middle}\nvelocity = {}\n", case.list(|k| [1e-9, 3e-10, 0.0][k]))
+}
+
+/// Where theory finds no growing wave, noise must not grow: not in a relaxed lattice, not in compression in 1D,
+/// and not in tension where the artificial stress is enough.
+#[test]
+fn stable_lattices_stay_at_the_noise() {
+    let cases = [
+        Case::new(1, Fluid, 1.3, 0.95),
+        Case::new(1, Fluid, 1.3, 1.01).scalar(1.119),
+        Case::new(1, Elastic, 1.8, 1.03).principal(0.3),
+        Case::new(2, Elastic, 1.3, 1.0),
+        Case::new(2, Elastic, 1.8, 1.01).scalar(0.3),
+        Case::new(2, Elastic, 1.8, 1.03).principal(0.3),
+    ];
+    for case in cases {
+        let (wave, mode) = case.fastest();
+        assert!(mode.rate < 1e-6, "theory says that {case:?} grows: {mode:?} at {wave:?}");
+        let growth = growth_of_noise(&case, 400.0);
+        println!("{growth:.1e} {case:?}");
+        assert!(growth < 1e-3, "grew at {growth} c/dx, and theory says not: {case:?}");
+    }
+}
+
+/// Swegle's criterion: particles clump where the stress times W'' is positive at the neighbours, which for the
+/// cubic spline beyond h 1.2 means tension, and not in compression.
+#[test]
+fn the_plain_method_clumps_in_tension_and_not_in_compression() {
+    let nearest = |relative_volume: f64| {
+        let case = Case::new(1, Fluid, 1.3, relative_volume);
+        let text = case.periodic() + &case.text("", 150.0, 10) + &kick(&case);
+        *finished(&text).table.columns["nearest"].last().unwrap()
+    };
+    assert!(nearest(1.05) < 0.5);
+    assert!(nearest(0.95) > 0.999);
+}
+
+/// Swegle's block: its border is held, so its modes are near standing waves of the free inside. The kick wakes
+/// all of them; those near the fastest fall behind it only slowly (the sum grows as exp(rate t)/t), so the slope
+/// is taken late.
+#[test]
+fn a_block_with_a_held_border_grows_nearly_as_theory_says() {
+    let held = 3;
+    for case in [Case::new(2, Fluid, 1.3, 1.01), Case::new(2, Elastic, 1.3, 1.03), Case::new(2, Elastic, 1.3, 1.01).principal(0.3)] {
+        let case = Case { cells: [47, 47, 1], ..case };
+        let free = [41, 41, 0];
+        let (_, theory) = case.equations().fastest(&fixed_wave_vectors(free, 1.0));
+        let inside = |side: f64| format!("{{ block = {{ min = [{0}, {0}], max = [{1}, {1}] }} }}", -side, 46.0 + side);
+        let border = format!(
+            "[[boundary]]\nselect.inside.cut = {{ from = {}, remove = [{}] }}\nfixed = true\n",
+            inside(0.5),
+            inside(0.5 - f64::from(held))
+        );
+        let finished = finished(&(case.text("", 16.0 / theory, 48) + &border + &kick(&case)));
+        let measured = slope(&finished, 11.0 / theory);
+        println!("{:.5} {:.5} {case:?}", measured / case.sound_speed(), theory / case.sound_speed());
+        assert!((measured / theory - 1.0).abs() < 0.03, "grew at {measured}, theory says {theory}: {case:?}");
+    }
+}
