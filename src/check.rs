@@ -39,6 +39,18 @@ pub fn rows(scene: &Scene, finished: &Finished, folder: &Path) -> Result<Vec<Row
     wanted.map(|(name, expect)| row(scene, finished, folder, name, expect)).collect()
 }
 
+/// Reads every reference that a scene names, so that a missing one shows before the run.
+pub fn references(scene: &Scene, folder: &Path) -> Result<(), String> {
+    let named = scene.file.expect.values().filter_map(|expect| Some((expect.reference.as_ref()?, expect)));
+    named.into_iter().try_for_each(|(name, expect)| reference(&folder.join(name), expect).map(|_| ()))
+}
+
+/// The line of a run that did not come to its end.
+pub fn failed(scene: &Scene, reason: String) -> Row {
+    let (name, expected, tolerance) = ("run".into(), "an end".into(), String::new());
+    Row { scene: scene.label(), name, seen: f64::NAN, expected, tolerance, source: reason, verdict: Verdict::Miss }
+}
+
 fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &Expect) -> Result<Row, String> {
     let row = |seen: f64, expected: String, tolerance: String, verdict| Row {
         scene: scene.label(),
@@ -126,6 +138,9 @@ fn reference(path: &Path, expect: &Expect) -> Result<Vec<(f64, f64)>, String> {
         names.iter().position(|n| n == wanted).ok_or_else(|| format!("{} has no column `{wanted}`", path.display()))
     };
     let (x, y) = (find(x)?, find(y)?);
+    if rows.len() < 2 {
+        return Err(format!("{} has fewer than two rows", path.display()));
+    }
     Ok(rows.iter().map(|r| (r[x], r[y])).collect())
 }
 

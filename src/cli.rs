@@ -5,6 +5,7 @@ use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
 use crate::{check, observable, output, particles, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -64,13 +65,16 @@ struct Where {
 }
 
 impl Where {
-    fn choice(&self) -> Choice {
-        match (self.backend, self.precision) {
+    fn choice(&self) -> Result<Choice, Stop> {
+        Ok(match (self.backend, self.precision) {
+            (BackendWord::Cpu, _) if self.adapter.is_some() => {
+                return Err(Stop::Refused("--adapter names a graphics adapter, and --backend cpu takes none".into()));
+            }
             (BackendWord::Auto, _) if self.adapter.is_none() => Choice::Auto,
             (BackendWord::Cpu, PrecisionWord::F32) => Choice::Cpu32,
             (BackendWord::Cpu, PrecisionWord::F64) => Choice::Cpu,
             _ => Choice::Gpu(self.adapter.clone()),
-        }
+        })
     }
 
     fn set_threads(&self) -> Result<(), Stop> {
@@ -106,7 +110,7 @@ struct RunArgs {
 struct CheckArgs {
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
-    /// Only this variant; all, and the scene without one, unless given.
+    /// Only this variant (`none`: the scene as it is); all, and the scene as it is, unless given.
     #[arg(long)]
     variant: Option<String>,
     #[arg(long, value_name = "PATH=VALUE")]
@@ -144,6 +148,11 @@ struct RenderArgs {
     /// Paint on the GPU even if it is a software one.
     #[arg(long)]
     gpu: bool,
+}
+
+/// Prints to a reader that may be gone: `lithosph list | head` is no error.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Does what the command line says; gives the exit code.
@@ -188,11 +197,17 @@ pub fn main() -> i32 {
 fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
     args.place.set_threads()?;
     let options =
-        Options { choice: args.place.choice(), out: args.out.clone(), dry: false, force: args.force, quiet: args.place.quiet };
+        Options { choice: args.place.choice()?, out: args.out.clone(), dry: false, force: args.force, quiet: args.place.quiet };
     let finished = match (&args.resume, &args.scene) {
         (Some(folder), _) => {
             let scene = Scene::open(&folder.join("run.toml"), None, &[]).map_err(Stop::Refused)?;
-            run::resume(&scene, &options, folder.clone())?
+            match run::resume(&scene, &options, folder.clone())? {
+                Some(finished) => finished,
+                None => {
+                    say(&format!("{}: the run is finished, there is nothing to go on with", folder.display()));
+                    return Ok(0);
+                }
+            }
         }
         (None, Some(path)) => {
             let scene = Scene::open(path, args.variant.as_deref(), &args.set).map_err(Stop::Refused)?;
@@ -209,14 +224,14 @@ fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
 
 fn announce(scene: &Scene, options: &Options) {
     if !options.quiet {
-        println!("{}: {}", scene.label(), scene.file.title);
+        say(&format!("{}: {}", scene.label(), scene.file.title));
     }
 }
 
 fn tell(finished: &Finished) {
-    println!("{}", finished.summary.text());
+    say(&finished.summary.text());
     if let Some(folder) = &finished.folder {
-        println!("written to {}", folder.display());
+        say(&format!("written to {}", folder.display()));
     }
 }
 
@@ -226,9 +241,8 @@ fn check_scenes(args: &CheckArgs) -> Result<i32, Stop> {
     for path in &args.scenes {
         all.extend(check_scene(path, args)?);
     }
-    print!("{}", check::text(&all));
     let missed = all.iter().filter(|row| row.verdict == check::Verdict::Miss).count();
-    println!("{} expectations, {missed} missed", all.len());
+    say(&format!("{}{} expectations, {missed} missed", check::text(&all), all.len()));
     Ok(i32::from(missed > 0))
 }
 
@@ -244,10 +258,15 @@ fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
         if (args.ci && !scene.file.ci) || !expects_something(&scene) {
             continue;
         }
-        let options = Options { choice: args.place.choice(), dry: true, quiet: args.place.quiet, ..Options::default() };
-        let finished = run::run(&scene, &options)?;
+        let options = Options { choice: args.place.choice()?, dry: true, quiet: args.place.quiet, ..Options::default() };
         let folder = path.parent().unwrap_or(Path::new("."));
-        rows.extend(check::rows(&scene, &finished, folder).map_err(Stop::Refused)?);
+        check::references(&scene, folder).map_err(Stop::Refused)?;
+        match run::run(&scene, &options) {
+            Ok(finished) => rows.extend(check::rows(&scene, &finished, folder).map_err(Stop::Refused)?),
+            // The table shall not be lost for one run of many.
+            Err(Stop::Failed(reason)) => rows.push(check::failed(&scene, reason)),
+            Err(stop) => return Err(stop),
+        }
     }
     Ok(rows)
 }
@@ -279,7 +298,6 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
     };
     let beside = file.parent().unwrap_or(Path::new("."));
     let folder = args.out.clone().unwrap_or_else(|| beside.join("frames"));
-    std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
     let painter = output::Painter::choose(args.gpu).map_err(refuse)?;
     let mut view = output::View {
         width: args.width,
@@ -295,9 +313,10 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         // The first frame's box serves all, so that a sequence does not jump.
         view.bounds = view.bounds.or_else(|| Some(snapshot.bounds()));
         let picture = painter.paint(&snapshot, &view).map_err(refuse)?;
+        std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
         output::save_png(&folder.join(format!("{k:05}.png")), &picture).map_err(Stop::Failed)?;
     }
-    println!("pictures written to {}", folder.display());
+    say(&format!("pictures written to {}", folder.display()));
     Ok(0)
 }
 
@@ -309,25 +328,25 @@ fn render(_: &RenderArgs) -> Result<i32, Stop> {
 fn list(path: Option<&Path>) -> Result<i32, Stop> {
     if let Some(path) = path {
         for variant in scene::read::variants(path).map_err(Stop::Refused)? {
-            println!("{variant}");
+            say(&variant);
         }
         return Ok(0);
     }
-    println!("smoothing kernels");
+    say("smoothing kernels");
     for kernel in smoothing::Smoothing::ALL {
-        println!("  {:<24} {}", kernel.word(), kernel.about());
+        say(&format!("  {:<24} {}", kernel.word(), kernel.about()));
     }
-    println!("observables");
+    say("observables");
     for kind in observable::KINDS {
-        println!("  {:<24} {}", kind.word, kind.about);
+        say(&format!("  {:<24} {}", kind.word, kind.about));
     }
-    println!("passes");
+    say("passes");
     for pass in pass::Pass::ALL {
-        println!("  {:<24} {}", pass.name(), pass.about());
+        say(&format!("  {:<24} {}", pass.name(), pass.about()));
     }
-    println!("fields");
+    say("fields");
     for field in particles::Field::ALL {
-        println!("  {:<24} {}", field.name(), field.about());
+        say(&format!("  {:<24} {}", field.name(), field.about()));
     }
     Ok(0)
 }
@@ -336,7 +355,7 @@ fn devices() -> Result<i32, Stop> {
     let list = crate::backend::device::list();
     for device in &list {
         let yes = |on: bool, word: &'static str| if on { word } else { "" };
-        println!(
+        say(&format!(
             "{}, {} ({} {}), {}{}{}, largest table {} MiB",
             device.name,
             device.backend,
@@ -346,11 +365,11 @@ fn devices() -> Result<i32, Stop> {
             yes(device.f64, ", f64"),
             yes(device.timestamps, ", timestamps"),
             device.max_binding_bytes >> 20,
-        );
+        ));
     }
-    println!("CPU, {} threads: the reference path, f64", rayon::current_num_threads());
+    say(&format!("CPU, {} threads: the reference path, f64", rayon::current_num_threads()));
     if list.is_empty() {
-        println!("no Vulkan adapter: runs use the CPU");
+        say("no Vulkan adapter: runs use the CPU");
     }
     Ok(0)
 }

@@ -412,6 +412,25 @@ impl<R: Real> Space for Solid<R> {
     fn sym_index(row: usize, column: usize) -> usize {
         [[0, 3, 5], [3, 1, 4], [5, 4, 2]][row][column]
     }
+    // In whole columns of four, padding included, these become vector instructions.
+    #[inline(always)]
+    fn inner(a: Self::Vec, b: Self::Vec) -> R {
+        (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+    }
+    #[inline(always)]
+    fn outer(a: Self::Vec, b: Self::Vec) -> Self::Mat {
+        let mut m = [R::default(); 12];
+        for j in 0..3 {
+            for i in 0..4 {
+                m[4 * j + i] = a[i] * b[j];
+            }
+        }
+        Tuple(m)
+    }
+    #[inline(always)]
+    fn mat_vec(m: Self::Mat, v: Self::Vec) -> Self::Vec {
+        Tuple(std::array::from_fn(|i| m[i] * v[0] + m[4 + i] * v[1] + m[8 + i] * v[2]))
+    }
     // Written out: looked up through `sym_index` this product alone took two thirds of the force loop.
     #[inline(always)]
     fn sym_vec(s: Self::Sym, v: Self::Vec) -> Self::Vec {

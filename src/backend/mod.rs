@@ -11,6 +11,7 @@ use crate::scene::Scene;
 use crate::state::Clock;
 use crate::tensor::{Line, Plane, Solid};
 use std::collections::BTreeMap;
+use std::sync::Once;
 
 /// Which backend a run is asked to use.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -31,7 +32,9 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
         Choice::Auto => {
             let found = device::choose(device::Want::Auto, None)?;
             if found.is_none() {
-                eprintln!("no hardware GPU with Vulkan found: running on the CPU");
+                // Once, however many scenes are checked.
+                static TOLD: Once = Once::new();
+                TOLD.call_once(|| eprintln!("no hardware GPU with Vulkan found: running on the CPU"));
             }
             found
         }

@@ -20,7 +20,7 @@ pub use result::Table;
 use crate::particles::Field;
 use crate::scene::Scene;
 use crate::scene::file::Observe;
-use crate::scene::read::nearest;
+use crate::scene::read::{hint, nearest};
 
 /// One kind of observable.
 pub struct Kind {
@@ -100,7 +100,17 @@ pub fn observers(scene: &Scene) -> Vec<Observer> {
 
 /// Refuses observables and expectations that the scene cannot give.
 pub fn check(scene: &Scene, refuse: impl Fn(&[&str], String) -> String) -> Result<(), String> {
+    let output = &scene.file.output;
+    let pictured = moment::check_path(scene, &output.picture.field);
+    pictured.map_err(|message| refuse(&["output", "picture", "field"], format!("the picture {message}")))?;
+    for name in &output.fields {
+        moment::check_quantity(scene, name).map_err(|message| refuse(&["output", "fields"], format!("output {message}")))?;
+    }
     for (name, typed) in &scene.file.observe {
+        if !name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
+            let message = format!("observable `{name}` names a column: letters, digits, _ and - only");
+            return Err(refuse(&["observe", name], message));
+        }
         check_one(scene, name, typed).map_err(|message| refuse(&["observe", name], format!("observable `{name}` {message}")))?;
     }
     for (name, expect) in &scene.file.expect {
@@ -112,8 +122,9 @@ pub fn check(scene: &Scene, refuse: impl Fn(&[&str], String) -> String) -> Resul
 
 fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     let Some(kind) = KINDS.iter().find(|kind| kind.word == typed.kind) else {
-        let hint = nearest(&typed.kind, KINDS.iter().map(|k| k.word)).unwrap_or("kinetic_energy");
-        return Err(format!("is of the unknown kind `{}`; did you mean `{hint}`?", typed.kind));
+        let near = nearest(&typed.kind, KINDS.iter().map(|k| k.word)).map(|word| format!(", did you mean `{word}`?"));
+        let hint = near.unwrap_or_else(|| "; `lithosph list` names them all".to_string());
+        return Err(format!("is of the unknown kind `{}`{hint}", typed.kind));
     };
     for key in kind.needs {
         let given = match *key {
@@ -131,8 +142,8 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     }
     for other in [&typed.of, &typed.over].into_iter().flatten() {
         if other == name || !scene.file.observe.contains_key(other) {
-            let hint = nearest(other, scene.file.observe.keys().map(String::as_str)).unwrap_or("none");
-            return Err(format!("is found from `{other}`, which is no other observable; did you mean `{hint}`?"));
+            let others: Vec<&str> = scene.file.observe.keys().map(String::as_str).filter(|word| *word != name).collect();
+            return Err(format!("is found from `{other}`, which is no other observable{}", hint(other, &others)));
         }
     }
     if let Some(word) = &typed.axis
@@ -143,8 +154,8 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     if let Some(body) = &typed.body
         && scene.body_index(body).is_none()
     {
-        let hint = nearest(body, scene.bodies.iter().map(|b| b.name.as_str())).unwrap_or("none");
-        return Err(format!("is taken over `{body}`, which is no body; did you mean `{hint}`?"));
+        let bodies: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
+        return Err(format!("is taken over `{body}`, which is no body{}", hint(body, &bodies)));
     }
     if scene.select(typed.body.as_deref(), typed.inside.as_ref()).is_empty() {
         return Err("selects no particle".into());
@@ -161,8 +172,10 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
 
 fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) -> Result<(), String> {
     if !scene.file.observe.contains_key(name) {
-        let hint = nearest(name, scene.file.observe.keys().map(String::as_str)).unwrap_or("none");
-        return Err(format!("names no observable; did you mean `{hint}`?"));
+        return Err(format!(
+            "names no observable{}",
+            hint(name, &scene.file.observe.keys().map(String::as_str).collect::<Vec<_>>())
+        ));
     }
     if expect.source.is_empty() {
         return Err("needs a source: where does the number come from?".into());
@@ -184,8 +197,8 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
         && !scene.file.variant.contains_key(variant)
         && variant != "none"
     {
-        let hint = nearest(variant, scene.file.variant.keys().map(String::as_str)).unwrap_or("none");
-        return Err(format!("holds for `{variant}`, which is no variant; did you mean `{hint}`?"));
+        let variants: Vec<&str> = scene.file.variant.keys().map(String::as_str).collect();
+        return Err(format!("holds for `{variant}`, which is no variant{}", hint(variant, &variants)));
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use crate::material;
 use crate::output::{Column, Snapshot};
 use crate::particles::{Field, Type, unit_text};
 use crate::scene::Scene;
-use crate::scene::read::nearest;
+use crate::scene::read::hint;
 
 /// Fields at one time.
 pub struct Moment<'a> {
@@ -34,8 +34,8 @@ const QUANTITIES: &[(&str, usize, &[Field])] = &[
 fn quantity(path: &str) -> Result<&'static (&'static str, usize, &'static [Field]), String> {
     let word = path.split('.').next().unwrap_or(path);
     QUANTITIES.iter().find(|q| q.0 == word).ok_or_else(|| {
-        let hint = nearest(word, QUANTITIES.iter().map(|q| q.0)).unwrap_or("velocity");
-        format!("reads the unknown field `{path}`; did you mean `{hint}`?")
+        let hint = hint(word, &QUANTITIES.iter().map(|q| q.0).collect::<Vec<_>>());
+        format!("reads the unknown field `{path}`{hint}")
     })
 }
 
@@ -45,13 +45,23 @@ pub fn fields_of_path(scene: &Scene, path: &str) -> Vec<Field> {
     quantity(path).map_or_else(|_| Vec::new(), |q| q.2.iter().copied().filter(|f| present.contains(f)).collect())
 }
 
+/// Refuses what is no whole quantity, or one of a field that the scene lacks.
+pub fn check_quantity(scene: &Scene, name: &str) -> Result<(), String> {
+    let (word, _, fields) = quantity(name)?;
+    if *word != name {
+        return Err(format!("reads `{name}`, a part: name the whole `{word}`"));
+    }
+    let present = crate::step::fields(&scene.method);
+    match fields.iter().find(|f| !present.contains(f) && **f != Field::DeviatoricStress) {
+        Some(field) => Err(format!("reads {word}, and this scene has no field {}", field.name())),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a path that names no quantity, no part of it, or a field that the scene lacks.
 pub fn check_path(scene: &Scene, path: &str) -> Result<(), String> {
-    let (word, components, fields) = quantity(path)?;
-    let present = crate::step::fields(&scene.method);
-    if let Some(field) = fields.iter().find(|f| !present.contains(f) && **f != Field::DeviatoricStress) {
-        return Err(format!("reads {word}, and this scene has no field {}", field.name()));
-    }
+    let (word, components, _) = quantity(path)?;
+    check_quantity(scene, word)?;
     let snapshot = Snapshot {
         dimension: scene.dimension(),
         positions: vec![[0.0; 3]],

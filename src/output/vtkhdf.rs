@@ -13,11 +13,20 @@ use super::{Column, Snapshot};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use layout::{is_number, lay_out};
+use std::fs::OpenOptions;
+use std::io::Write;
 use std::path::Path;
 
 /// Names the file in an error.
 fn at<T>(path: &Path, result: hdf5::Result<T>) -> Result<T, String> {
-    result.map_err(|error| format!("{}: {error}", path.display()))
+    result.map_err(|error| format!("{}: {}", path.display(), reason(&error)))
+}
+
+/// The operating system's reason, which HDF5 buries in several lines of its own.
+pub fn reason(error: &hdf5::Error) -> String {
+    let text = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let buried = text.split_once("error message = '").and_then(|(_, rest)| rest.split_once('\''));
+    buried.map_or_else(|| text.clone(), |(reason, _)| reason.to_string())
 }
 
 fn options() -> hdf5::FileBuilder {
@@ -41,9 +50,30 @@ pub fn create(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
 /// Adds a step with the same particles and the same columns as the steps before it.
 pub fn append(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
     check(snapshot)?;
+    reserve(path, snapshot).map_err(|error| format!("{}: {error}", path.display()))?;
     let file = at(path, open(path, true))?;
     at(path, same_content(&file, snapshot))?.map_err(|why| format!("{}: {why}", path.display()))?;
     at(path, append_step(&file, snapshot).and_then(|()| file.close()))
+}
+
+/// More than the chunks of per-step numbers and the indices take that one step may begin.
+const RESERVE: usize = 512 << 10;
+
+/// Takes the room of a step at the end of the file, and gives it back where the disk has not enough: HDF5
+/// would break off in the middle and leave a file that nothing can open. HDF5 itself cuts off what is left.
+fn reserve(path: &Path, snapshot: &Snapshot) -> std::io::Result<()> {
+    let numbers: usize = 3 + snapshot.columns.iter().map(|column| column.components).sum::<usize>();
+    let bytes = size_of::<f32>() * numbers * snapshot.positions.len();
+    let mut file = OpenOptions::new().append(true).open(path)?;
+    let length = file.metadata()?.len();
+    let block = vec![0u8; RESERVE];
+    for _ in 0..1 + bytes.div_ceil(RESERVE) {
+        if let Err(error) = file.write_all(&block) {
+            file.set_len(length)?;
+            return Err(error);
+        }
+    }
+    Ok(())
 }
 
 /// Drops the steps later than `time`, so that a resumed run continues from its checkpoint.

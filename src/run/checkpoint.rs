@@ -12,6 +12,8 @@ pub struct Checkpoint {
     pub event: usize,
     pub time: f64,
     pub steps: u32,
+    pub name: String,
+    pub variant: Option<String>,
     /// Scene as resolved, and device, that made it.
     pub scene: String,
     pub device: String,
@@ -27,14 +29,20 @@ impl Checkpoint {
         steps: u32,
         columns: BTreeMap<Field, Vec<u8>>,
     ) -> Self {
-        Self { event, time, steps, scene: scene.text.clone(), device: backend.describe(), columns }
+        let (name, variant, scene) = (scene.name.clone(), scene.variant.clone(), scene.text.clone());
+        Self { event, time, steps, name, variant, scene, device: backend.describe(), columns }
     }
 
-    /// Refuses a checkpoint of another scene or device, which could not give the same bits.
-    pub fn check(&self, scene: &Scene, backend: &dyn Backend) -> Result<(), String> {
-        if self.scene != scene.text {
-            return Err("the checkpoint is of another scene, variant or setting".into());
+    /// Refuses a checkpoint of another scene, which could not give the same bits.
+    pub fn check_scene(&self, scene: &Scene) -> Result<(), String> {
+        if self.scene == scene.text {
+            return Ok(());
         }
+        Err("the checkpoint is of another scene, variant or setting than the run.toml beside it".into())
+    }
+
+    /// Refuses a checkpoint of another device, as [`Self::check_scene`].
+    pub fn check_device(&self, backend: &dyn Backend) -> Result<(), String> {
         let device = backend.describe();
         // The number of threads does not change the result.
         let kind = |text: &str| text.split(", ").filter(|part| !part.ends_with("threads")).collect::<Vec<_>>().join(", ");
@@ -48,12 +56,13 @@ impl Checkpoint {
 #[cfg(feature = "hdf5")]
 mod stored {
     use super::{BTreeMap, Checkpoint, Field, Path};
+    use crate::output::vtkhdf::reason;
 
     impl Checkpoint {
         /// Written aside and renamed, so that the folder always holds a whole one.
         pub fn write(&self, folder: &Path) -> Result<(), String> {
             let (aside, path) = (folder.join("checkpoint.h5.part"), folder.join("checkpoint.h5"));
-            self.write_to(&aside).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+            self.write_to(&aside).map_err(|e| format!("cannot write {}: {}", path.display(), reason(&e)))?;
             std::fs::rename(&aside, &path).map_err(|e| format!("cannot write {}: {e}", path.display()))
         }
 
@@ -61,8 +70,11 @@ mod stored {
             let file = hdf5::File::create(path)?;
             let numbers = [self.event as f64, self.time, f64::from(self.steps)];
             file.new_dataset_builder().with_data(&numbers).create("progress")?;
-            for (name, text) in [("scene", &self.scene), ("device", &self.device)] {
-                file.new_dataset_builder().with_data(text.as_bytes()).create(name)?;
+            let texts = [("name", Some(&self.name)), ("variant", self.variant.as_ref()), ("scene", Some(&self.scene))];
+            for (name, text) in texts.into_iter().chain([("device", Some(&self.device))]) {
+                if let Some(text) = text {
+                    file.new_dataset_builder().with_data(text.as_bytes()).create(name)?;
+                }
             }
             let group = file.create_group("fields")?;
             for (field, bytes) in &self.columns {
@@ -77,7 +89,7 @@ mod stored {
         if !path.exists() {
             return Err(format!("{} holds no checkpoint.h5 to resume from", folder.display()));
         }
-        read_from(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))
+        read_from(&path).map_err(|e| format!("cannot read {}: {}", path.display(), reason(&e)))
     }
 
     fn read_from(path: &Path) -> hdf5::Result<Checkpoint> {
@@ -97,6 +109,8 @@ mod stored {
             event: progress[0] as usize,
             time: progress[1],
             steps: progress[2] as u32,
+            name: text("name")?,
+            variant: if file.link_exists("variant") { Some(text("variant")?) } else { None },
             scene: text("scene")?,
             device: text("device")?,
             columns,

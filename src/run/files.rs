@@ -3,9 +3,10 @@
 
 use super::checkpoint::Checkpoint;
 use super::{Finished, Options};
+use crate::backend::Choice;
 use crate::observable::{Moment, Observer, Table, Value};
 use crate::output::csv::{self, Series};
-use crate::output::{self, View};
+use crate::output::{self, Painter, View};
 use crate::particles::Field;
 use crate::scene::Scene;
 use std::fs;
@@ -16,6 +17,7 @@ pub struct Files {
     pub folder: PathBuf,
     series: Option<Series>,
     frames: usize,
+    painter: Painter,
 }
 
 /// Where a scene's output goes unless told otherwise.
@@ -42,28 +44,41 @@ pub fn fields_stored(scene: &Scene) -> Vec<Field> {
     list
 }
 
+/// Refuses to overwrite a run unless forced.
+pub fn refuse_existing(scene: &Scene, options: &Options) -> Result<(), String> {
+    let folder = options.out.clone().unwrap_or_else(|| folder(scene));
+    if folder.exists() && !options.force {
+        return Err(format!("{} exists already; --force overwrites it, --out names another folder", folder.display()));
+    }
+    Ok(())
+}
+
+/// Whether a run writes a file of this name.
+fn is_own(name: &str) -> bool {
+    let name = name.strip_suffix(".part").unwrap_or(name);
+    let own = ["run.toml", "series.csv", "particles.vtkhdf", "summary.json", "checkpoint.h5"];
+    own.contains(&name) || (name.starts_with("profile-") && name.ends_with(".csv"))
+}
+
 impl Files {
-    /// Makes the folder; refuses to overwrite a run unless forced.
+    /// Makes the folder, or takes away what a run before wrote to it, and nothing else.
     pub fn create(scene: &Scene, options: &Options) -> Result<Self, String> {
         let folder = options.out.clone().unwrap_or_else(|| folder(scene));
         let text = |e: std::io::Error| format!("cannot write {}: {e}", folder.display());
-        if folder.exists() {
-            if !options.force {
-                return Err(format!("{} exists already; --force overwrites it, --out names another folder", folder.display()));
+        let painter = painter(options)?;
+        for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
+            if is_own(&entry.file_name().to_string_lossy()) {
+                let _ = fs::remove_file(entry.path());
             }
-            // Only what a run writes is taken away.
-            for name in ["run.toml", "series.csv", "particles.vtkhdf", "summary.json", "checkpoint.h5"] {
-                let _ = fs::remove_file(folder.join(name));
-            }
-            let _ = fs::remove_dir_all(folder.join("frames"));
         }
+        let _ = fs::remove_dir_all(folder.join("frames"));
         fs::create_dir_all(folder.join("frames")).map_err(text)?;
         fs::write(folder.join("run.toml"), &scene.text).map_err(text)?;
-        Ok(Self { folder, series: None, frames: 0 })
+        Ok(Self { folder, series: None, frames: 0, painter })
     }
 
     /// Opens a run's folder again and drops what lies after a time; gives the series up to there.
-    pub fn reopen(scene: &Scene, folder: PathBuf, time: f64) -> Result<(Self, Table), String> {
+    pub fn reopen(scene: &Scene, options: &Options, folder: PathBuf, time: f64) -> Result<(Self, Table), String> {
         let path = folder.join("series.csv");
         csv::truncate_after(&path, time)?;
         let (names, rows) = csv::read(&path)?;
@@ -75,7 +90,7 @@ impl Files {
         output::vtkhdf::truncate_after(&folder.join("particles.vtkhdf"), time)?;
         let interval = scene.file.output.frames.unwrap_or(scene.file.duration / 10.0);
         let frames = (time / interval + 1e-9) as usize + 1;
-        Ok((Self { series: Some(Series::open_append(&path)?), folder, frames }, table))
+        Ok((Self { series: Some(Series::open_append(&path)?), folder, frames, painter: painter(options)? }, table))
     }
 
     /// Writes the last row of the table.
@@ -100,7 +115,7 @@ impl Files {
             let path = self.folder.join("particles.vtkhdf");
             if self.frames == 0 { output::vtkhdf::create(&path, &snapshot)? } else { output::vtkhdf::append(&path, &snapshot)? }
         }
-        let picture = output::splat::splat(&snapshot, &view(scene))?;
+        let picture = self.painter.paint(&snapshot, &view(scene))?;
         output::save_png(&self.folder.join(format!("frames/{:05}.png", self.frames)), &picture)?;
         self.frames += 1;
         Ok(())
@@ -126,6 +141,14 @@ impl Files {
 
 fn series_names(observers: &[Observer]) -> Vec<&String> {
     observers.iter().filter(|o| matches!(o.kind.value, Value::Series(_))).map(|o| &o.name).collect()
+}
+
+/// A run that is told to stay off the GPU paints there neither.
+fn painter(options: &Options) -> Result<Painter, String> {
+    match options.choice {
+        Choice::Cpu | Choice::Cpu32 => Ok(Painter::Splat),
+        Choice::Auto | Choice::Gpu(_) => Painter::choose(false),
+    }
 }
 
 /// How a scene is looked at.

@@ -59,22 +59,33 @@ pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Runs a scene from its start.
 pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
-    let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
+    if !options.dry {
+        files::refuse_existing(scene, options).map_err(Stop::Refused)?;
+    }
+    // Before the folder is made: a backend that cannot be had leaves no trace.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
+    let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }
 
-/// Goes on from the checkpoint in a run's folder, to the same bits as a run that was never broken off.
-pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Finished, Stop> {
+/// Goes on from the checkpoint in a run's folder, to the same bits as a run that was never broken off;
+/// `None` where the run had come to its end.
+pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Option<Finished>, Stop> {
     let saved = checkpoint::read(&folder).map_err(Stop::Refused)?;
+    saved.check_scene(scene).map_err(Stop::Refused)?;
+    if saved.event >= Schedule::new(scene).events().len() && folder.join("summary.json").exists() {
+        return Ok(None);
+    }
+    // The folder's `run.toml` has lost them.
+    let scene = &Scene { name: saved.name.clone(), variant: saved.variant.clone(), ..scene.clone() };
     let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
-    saved.check(scene, &*backend).map_err(Stop::Refused)?;
+    saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.columns).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
-    let (files, table) = Files::reopen(scene, folder, saved.time).map_err(Stop::Refused)?;
+    let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
-    run.go()
+    run.go().map(Some)
 }
 
 /// Times at which something is written.
@@ -98,20 +109,25 @@ impl Schedule {
     /// All times in order, each with whether a row and whether a frame is due.
     fn events(&self) -> Vec<(f64, bool, bool)> {
         let rounding = 1e-9 * self.duration;
+        let count = |interval: f64| (self.duration / interval + 1e-9) as u64;
         let every = |interval: f64| -> Vec<f64> {
             if interval == 0.0 {
                 return Vec::new();
             }
-            let count = (self.duration / interval + 1e-9) as u64;
-            (0..=count).map(|k| k as f64 * interval).collect()
+            (0..=count(interval)).map(|k| k as f64 * interval).collect()
         };
         let (rows, frames) = (every(self.series), every(self.frames));
         let mut times: Vec<f64> = rows.iter().chain(&frames).copied().chain([self.duration]).collect();
         times.sort_by(f64::total_cmp);
         times.dedup_by(|a, b| (*a - *b).abs() < rounding);
-        let due = |list: &[f64], t: f64| list.iter().any(|x| (x - t).abs() < rounding);
+        let due = |interval: f64, t: f64| {
+            let nearest = (t / interval).round().min(count(interval) as f64) * interval;
+            (nearest - t).abs() < rounding
+        };
         let last = times.len() - 1;
-        let event = |(k, &t): (usize, &f64)| (t, k == last || due(&rows, t), self.frames > 0.0 && (k == last || due(&frames, t)));
+        let event = |(k, &t): (usize, &f64)| {
+            (t, k == last || due(self.series, t), self.frames > 0.0 && (k == last || due(self.frames, t)))
+        };
         times.iter().enumerate().map(event).collect()
     }
 }

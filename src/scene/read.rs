@@ -6,8 +6,8 @@
 //! the values and keys instead.
 
 use super::file::File;
-pub use super::words::nearest;
-use super::words::{Fault, hint, is_choice, list, one_line, quoted, sentence};
+use super::words::{Fault, is_choice, list, one_line, quoted, sentence};
+pub use super::words::{hint, nearest};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry::{Occupied, Vacant};
@@ -99,7 +99,8 @@ pub fn read(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<
 pub fn read_text(text: &str, name: &str, variant: Option<&str>, overrides: &[String]) -> Result<Read, String> {
     let document = Document::parse(text, name)?;
     let (root, mut file) = document.assemble(variant, overrides)?;
-    let resolved_text = toml::to_string(&root.table()).map_err(|error| format!("{name}: {}", one_line(&error.to_string())))?;
+    let resolved_text =
+        toml::to_string(&root.expecting(variant).table()).map_err(|error| format!("{name}: {}", one_line(&error.to_string())))?;
     file.variant = document.variants.iter().map(|(name, entry)| (name.clone(), entry.node.table())).collect();
     let source = Source { name: name.to_string(), root };
     Ok(Read { file, source, variant: variant.map(str::to_string), resolved_text, document })
@@ -126,10 +127,8 @@ impl Read {
         for name in &names {
             self.document.assemble(Some(name), &[])?;
         }
-        // A stored run has no variants left, but keeps what was expected of them.
-        let expected = self.file.expect.iter().filter(|_| !names.is_empty());
-        for (name, expect) in expected {
-            if let Some(variant) = expect.variant.as_deref().filter(|variant| !names.contains(variant)) {
+        for (name, expect) in &self.file.expect {
+            if let Some(variant) = expect.variant.as_deref().filter(|variant| *variant != NONE && !names.contains(variant)) {
                 let place = self.source.place(&["expect", name, "variant"]);
                 return Err(format!("{place}: unknown variant `{variant}` in `expect.{name}`{}", hint(variant, &names)));
             }
@@ -508,6 +507,24 @@ impl Node {
             Value::Table(_) => Node { place: self.place.clone(), value: Value::Table(BTreeMap::new()) },
             _ => self.clone(),
         }
+    }
+
+    /// The scene with only what is expected of this variant, as if it had been typed so.
+    fn expecting(&self, variant: Option<&str>) -> Node {
+        let mut scene = self.clone();
+        if let Value::Table(tables) = &mut scene.value
+            && let Some(Value::Table(expected)) = tables.get_mut("expect").map(|entry| &mut entry.node.value)
+        {
+            expected.retain(|_, entry| match &mut entry.node.value {
+                Value::Table(keys) => keys.remove("variant").is_none_or(|named| named.node.is_text(variant.unwrap_or(NONE))),
+                _ => true,
+            });
+        }
+        scene
+    }
+
+    fn is_text(&self, wanted: &str) -> bool {
+        matches!(&self.value, Value::Text(text) if text == wanted)
     }
 
     /// What the value is, for "found ...".

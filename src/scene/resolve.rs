@@ -2,7 +2,7 @@
 
 use super::file::{ArtificialSpacing, Axis, File, Fixed, LawWord, Motion};
 use super::packing::fill;
-use super::read::{Read, Source, nearest};
+use super::read::{Read, Source, hint};
 use super::shape::used;
 use super::{Body, Constraint, Particle, Plane, Scene, file};
 use crate::state::Method;
@@ -40,6 +40,9 @@ impl Refuse<'_> {
     }
 }
 
+/// A slip in the unit of time is refused at once instead of filling the memory with rows.
+const MOST_OUTPUTS: f64 = 1e6;
+
 /// Single numbers that must lie in a range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -60,13 +63,24 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(series) = file.output.series {
         one(series, &["output", "series"], "series (time between rows)")?;
     }
+    for (interval, key) in [(file.output.series, "series"), (file.output.frames, "frames")] {
+        let few = interval.is_none_or(|interval| interval == 0.0 || file.duration / interval <= MOST_OUTPUTS);
+        refuse.unless(few, &["output", key], || format!("{key} would be written more than {MOST_OUTPUTS:e} times"))?;
+    }
     if let Some(frames) = file.output.frames {
         refuse.unless(frames >= 0.0 && frames.is_finite(), &["output", "frames"], || {
             format!("frames (time between pictures) must not be negative, found {frames}")
         })?;
     }
     let fits = f.list_margin.is_none_or(|margin| (0.02..=1.0).contains(&margin));
-    refuse.unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
+    refuse
+        .unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
+    refuse.unless(f.list_capacity != Some(0), &["formulation", "list_capacity"], || "list_capacity must not be 0".into())?;
+    let picture = &file.output.picture;
+    let fits = (160..=8192).contains(&picture.width) && (120..=8192).contains(&picture.height);
+    refuse.unless(fits, &["output", "picture"], || {
+        format!("a picture has 160 x 120 to 8192 x 8192 pixels, found {} x {}", picture.width, picture.height)
+    })?;
     for (weight, key) in [(f.xsph, "xsph"), (f.velocity_filter, "velocity_filter")] {
         let fits = weight.is_none_or(|w| (0.0..=1.0).contains(&w));
         refuse.unless(fits, &["formulation", key], || format!("{key} must lie between 0 and 1"))?;
@@ -103,8 +117,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
             return Err(refuse_at("name", format!("two bodies are named `{}`", typed.name)));
         }
         let Some(material) = file.material.get(&typed.material) else {
-            let hint = nearest(&typed.material, file.material.keys().map(String::as_str));
-            let hint = hint.map_or_else(String::new, |word| format!(", did you mean `{word}`?"));
+            let hint = hint(&typed.material, &file.material.keys().map(String::as_str).collect::<Vec<_>>());
             return Err(refuse_at("material", format!("no [material.{}]{hint}", typed.material)));
         };
         let (bulk_modulus, shear_modulus) = moduli(material)
@@ -128,6 +141,9 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
             return Err(refuse_at("deviatoric_stress", "a fluid carries no deviatoric stress".into()));
         }
         let spacing = typed.spacing.unwrap_or(file.spacing);
+        if !(spacing > 0.0 && spacing.is_finite()) {
+            return Err(refuse_at("spacing", format!("spacing must be a positive number, found {spacing}")));
+        }
         list.push(Body {
             name: typed.name.clone(),
             spacing,
@@ -140,6 +156,10 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
         });
     }
     Ok(list)
+}
+
+fn names(bodies: &[Body]) -> Vec<&str> {
+    bodies.iter().map(|body| body.name.as_str()).collect()
 }
 
 /// Bulk and shear modulus from the pair of constants that is typed.
@@ -187,6 +207,9 @@ fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, 
             }
         }));
     }
+    if let Some(wild) = particles.iter().find(|p: &&Particle| !p.velocity.is_finite()) {
+        return Err(refuse.at(&["body", &wild.body.to_string()], "the velocity must be a finite number".to_string()));
+    }
     for kick in &file.kick {
         let at = kick.at.vector();
         let distance = |p: &Particle| p.position.distance_squared(at);
@@ -217,8 +240,7 @@ fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse:
         let wanted = match &typed.select.body {
             None => None,
             Some(word) => Some(bodies.iter().position(|b| &b.name == word).ok_or_else(|| {
-                let hint = nearest(word, bodies.iter().map(|b| b.name.as_str()));
-                refuse.at(&path, format!("`{name}` selects no body named `{word}`; did you mean `{}`?", hint.unwrap_or("none")))
+                refuse.at(&path, format!("`{name}` selects no body named `{word}`{}", hint(word, &names(bodies))))
             })?),
         };
         let chosen = |p: &Particle| {
@@ -278,10 +300,10 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
         let at = k.to_string();
         let path = ["contact", &at, "between"];
         let index = |word: &String| {
-            bodies.iter().position(|b| &b.name == word).ok_or_else(|| {
-                let hint = nearest(word, bodies.iter().map(|b| b.name.as_str()));
-                refuse.at(&path, format!("no body is named `{word}`; did you mean `{}`?", hint.unwrap_or("none")))
-            })
+            bodies
+                .iter()
+                .position(|b| &b.name == word)
+                .ok_or_else(|| refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))))
         };
         let (a, b) = (index(&contact.between[0])?, index(&contact.between[1])?);
         refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;

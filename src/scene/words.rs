@@ -130,7 +130,7 @@ fn is_part(word: &str, of: &str) -> bool {
 }
 
 /// ", did you mean `x`?" or else the words there are.
-pub(super) fn hint(word: &str, valid: &[&str]) -> String {
+pub fn hint(word: &str, valid: &[&str]) -> String {
     match nearest(word, valid.iter().copied()) {
         Some(near) => format!(", did you mean `{near}`?"),
         None if valid.is_empty() => ", none is expected here".to_string(),

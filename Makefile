@@ -1,0 +1,47 @@
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.NOTPARALLEL:
+.PHONY: help demo test verify bench setup
+
+# Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
+export XDG_RUNTIME_DIR ?= /tmp
+test: export LITHOSPH_NEED_GPU = 1
+
+help: ## Say what there is to make
+	@sed -n 's/^\([a-z]*\):.*## /make \1|/p' Makefile | column -t -s '|' 2>/dev/null || sed -n 's/^\([a-z]*\):.*## /make \1: /p' Makefile
+
+demo: ## Build, let two rubber rings collide, and say where the pictures are
+	@.ci/setup build
+	cargo build --release
+	cargo run --release --quiet -- run scenes/colliding_rings.toml --force
+	@echo "Pictures: out/colliding_rings/frames/*.png; for ParaView: out/colliding_rings/particles.vtkhdf"
+
+test: ## Format, lints, all tests, and VTK's reader on what a run wrote
+	@.ci/setup test
+	cargo fmt --check
+	cargo clippy --release --all-targets --quiet -- -D warnings
+	@# Without HDF5 the program still has to run, not only to compile.
+	cargo test --release --no-default-features --test cli 2>&1 | tee target/test-without-hdf5.log
+	@status=0; cargo test --release --all-features --no-fail-fast 2>&1 | tee target/test.log || status=$$?; \
+	cargo run --release --quiet -- run scenes/colliding_rings.toml --backend cpu --set duration=100 --out target/vtk --force --quiet \
+	    && target/python/bin/python tests/vtk_reads_output.py target/vtk/particles.vtkhdf || status=1; \
+	grep -h '^test .* FAILED$$' target/test.log || true; \
+	awk '/^test result:/ { passed += $$4; failed += $$6 } END { print passed + 0 " passed, " failed + 0 " failed" }' \
+	    target/test-without-hdf5.log target/test.log; \
+	exit $$status
+
+verify: ## Run every scene, compare with what it expects, write docs/verification.txt
+	@.ci/setup build
+	cargo build --release
+	@mkdir -p docs; status=0; \
+	cargo run --release --quiet -- check scenes/*.toml >docs/verification.txt.part || status=$$?; \
+	cat docs/verification.txt.part; \
+	if [ $$status -le 1 ]; then mv docs/verification.txt.part docs/verification.txt; else rm docs/verification.txt.part; fi; \
+	exit $$status
+
+bench: ## Time each pass of a step on this machine
+	@.ci/setup build
+	cargo bench --bench passes
+
+setup:
+	@.ci/setup test
