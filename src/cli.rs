@@ -3,7 +3,7 @@
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
-use crate::{check, observable, output, particles, pass, run, scene, smoothing};
+use crate::{check, observable, particles, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -282,6 +282,7 @@ fn expects_something(scene: &Scene) -> bool {
 
 #[cfg(feature = "hdf5")]
 fn render(args: &RenderArgs) -> Result<i32, Stop> {
+    use crate::output;
     let refuse = Stop::Refused;
     let file = if args.file.is_dir() { args.file.join("particles.vtkhdf") } else { args.file.clone() };
     let times = output::vtkhdf::read(&file).map_err(refuse)?;

@@ -20,6 +20,11 @@ fn list(calls: &mut Vec<Call>) {
     calls.push(call(Pass::FindNeighbors));
 }
 
+/// A fluid whose density is summed has no stress to carry from step to step.
+fn stress_evolves(method: &Method) -> bool {
+    method.shear || method.density == Density::Continuity
+}
+
 /// From state to acceleration.
 fn force(method: &Method, calls: &mut Vec<Call>) {
     if method.density == Density::Summation {
@@ -72,7 +77,10 @@ fn leapfrog(method: &Method) -> Vec<Call> {
     }
     calls.push(call(Pass::Drift));
     list(&mut calls);
-    calls.extend([Pass::StrainRate, Pass::Stress].map(call));
+    calls.push(call(Pass::StrainRate));
+    if stress_evolves(method) {
+        calls.push(call(Pass::Stress));
+    }
     calls.push(call(Pass::Drift));
     force(method, &mut calls);
     calls.push(at(Pass::Kick, 1.0));
@@ -97,7 +105,10 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
     let mut calls = Vec::new();
     list(&mut calls);
     for (k, &stage) in stages.iter().enumerate() {
-        calls.extend([Pass::StrainRate, Pass::StressRate].map(call));
+        calls.push(call(Pass::StrainRate));
+        if stress_evolves(method) {
+            calls.push(call(Pass::StressRate));
+        }
         if method.xsph {
             calls.push(call(Pass::SmoothVelocity));
         }

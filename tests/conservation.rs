@@ -107,7 +107,8 @@ fn the_adjoint_form_keeps_angular_momentum_and_the_plain_one_does_not() {
         let moment = Moment::new(&scene, 0.0, 0, &columns);
         let (mut change, mut scale) = (0.0, 0.0);
         for (i, particle) in scene.particles.iter().enumerate() {
-            let (x, v) = (glam::DVec3::from_array(moment.position(i)), glam::DVec3::from_array(moment.vector(Field::Velocity, i)));
+            let (x, v) =
+                (glam::DVec3::from_array(moment.position(i)), glam::DVec3::from_array(moment.vector(Field::Velocity, i)));
             change += scene.mass(i) * (x.cross(v) - particle.position.cross(particle.velocity)).z;
             scale += scene.mass(i) * particle.position.length() * particle.velocity.length();
         }

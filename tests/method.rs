@@ -41,8 +41,19 @@ fn an_elastic_scene_has_the_fields_of_elasticity_and_no_others() {
     let cpu = Cpu::new(scene.state::<Plane<f64>>(false));
     use Field::*;
     let expected = [
-        Number, ReferencePosition, ReferenceVolume, Displacement, Velocity, Acceleration, VolumetricStrain, DeviatoricStress,
-        VelocityGradient, SpecificStress, ListedDisplacement, Cell, NeighborCount,
+        Number,
+        ReferencePosition,
+        ReferenceVolume,
+        Displacement,
+        Velocity,
+        Acceleration,
+        VolumetricStrain,
+        DeviatoricStress,
+        VelocityGradient,
+        SpecificStress,
+        ListedDisplacement,
+        Cell,
+        NeighborCount,
     ];
     assert_eq!(cpu.state.particles.present(), expected.iter().copied().fold(Vec::new(), sorted_in));
     let passes: Vec<&str> = step::step(&scene.method).iter().map(|c| c.pass.name()).collect();
@@ -199,10 +210,8 @@ fn prescribed_velocities_and_forces_follow_their_course() {
     );
     // The area under the course is 5 + 10; leapfrog takes it at the middle of each step, so kinks cost a little.
     assert!((final_value(&pulled, "u") - 0.15).abs() < 1e-4);
-    let pushed = scene(
-        DISC,
-        &["boundary=[{select={body=\"disc\"},force=[0,2]}]", "observe.v={kind=\"mean_velocity\",axis=\"y\"}"],
-    );
+    let pushed =
+        scene(DISC, &["boundary=[{select={body=\"disc\"},force=[0,2]}]", "observe.v={kind=\"mean_velocity\",axis=\"y\"}"]);
     let mass = std::f64::consts::PI * 9.3 * 9.3;
     assert!((final_value(&pushed, "v") - 2.0 * 20.0 / mass).abs() < 1e-12);
 }

@@ -174,8 +174,10 @@ fn rates(case: &Case) -> (f64, f64) {
     // At the zone's edge a sine is zero on every particle.
     let phase = std::f64::consts::FRAC_PI_4;
     let amplitude = case.list(|k| SEED * mode.polarisation[k]);
-    let motion =
-        format!("motion = {{ wave = {{ amplitude = {amplitude}, wave_vector = {}, phase = {phase:?} }} }}", case.list(|k| wave[k]));
+    let motion = format!(
+        "motion = {{ wave = {{ amplitude = {amplitude}, wave_vector = {}, phase = {phase:?} }} }}",
+        case.list(|k| wave[k])
+    );
     let duration = (TRANSIENT + FITTED) / mode.rate;
     let finished = finished(&(case.periodic() + &case.text(&motion, duration, 36)));
     let measured = slope(&finished, TRANSIENT / mode.rate);
@@ -307,7 +309,9 @@ fn the_plain_method_clumps_in_tension_and_not_in_compression() {
 #[test]
 fn a_block_with_a_held_border_grows_nearly_as_theory_says() {
     let held = 3;
-    for case in [Case::new(2, Fluid, 1.3, 1.01), Case::new(2, Elastic, 1.3, 1.03), Case::new(2, Elastic, 1.3, 1.01).principal(0.3)] {
+    for case in
+        [Case::new(2, Fluid, 1.3, 1.01), Case::new(2, Elastic, 1.3, 1.03), Case::new(2, Elastic, 1.3, 1.01).principal(0.3)]
+    {
         let case = Case { cells: [47, 47, 1], ..case };
         let free = [41, 41, 0];
         let (_, theory) = case.equations().fastest(&fixed_wave_vectors(free, 1.0));

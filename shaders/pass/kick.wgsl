@@ -35,6 +35,9 @@ fn main(invocation: Invocation) {
     let half = 0.5 * clock.step;
     let time = clock.start + clock.elapsed + stage_time * clock.step;
     let increment = acceleration_at(a, time) * half;
+#if internal_energy
+    let before = velocity[a];
+#endif
 #if compensated
     let result = compensated_add(velocity[a], velocity_carry[a], increment);
     velocity[a] = prescribe(a, result.sum, time);
@@ -44,7 +47,11 @@ fn main(invocation: Invocation) {
 #endif
     // Energies grow at the same two moments as the velocity, with the force of that moment.
 #if internal_energy
-    internal_energy[a] += internal_power[a] * half;
+    // The force found its power with the velocity of the half step; the kick does its work at the mean of the
+    // velocities before and after.
+    let later = select(0.5, 1.5, stage_time < 1.0);
+    let change = (velocity[a] - before) * later;
+    internal_energy[a] += (internal_power[a] - inner(acceleration[a], change)) * half;
 #endif
 #if dissipated_energy
     dissipated_energy[a] += dissipated_power[a] * half;

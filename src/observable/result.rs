@@ -13,7 +13,7 @@ pub struct Table {
 
 impl Table {
     /// Times and values of a column, within the observable's window.
-    pub fn window<'a>(&'a self, name: &str, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+    pub fn window(&self, name: &str, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
         let column = self.columns.get(name).ok_or_else(|| format!("there is no series `{name}`"))?;
         let [first, last] = typed.between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let pairs = self.times.iter().copied().zip(column.iter().copied());
@@ -27,20 +27,20 @@ impl Table {
 }
 
 fn restitution(table: &Table, typed: &Observe) -> Result<f64, String> {
-    let relative = |row: &dyn Fn(&[(f64, f64)]) -> f64| -> Result<f64, String> {
-        let own = row(&table.of(typed)?);
+    fn relative(table: &Table, typed: &Observe, of: fn(&[(f64, f64)]) -> f64) -> Result<f64, String> {
+        let own = of(&table.of(typed)?);
         match &typed.over {
             None => Ok(own),
-            Some(other) => Ok(own - row(&table.window(other, typed)?)),
+            Some(other) => Ok(own - of(&table.window(other, typed)?)),
         }
-    };
-    let before = relative(&|rows| rows[0].1)?;
+    }
+    let before = relative(table, typed, |rows| rows[0].1)?;
     // Bodies ring after they part, so the mean of the last tenth stands for the speed of leaving.
     let tail = |rows: &[(f64, f64)]| {
         let count = rows.len().div_ceil(10);
         rows[rows.len() - count..].iter().map(|r| r.1).sum::<f64>() / count as f64
     };
-    Ok(-relative(&tail)? / before)
+    Ok(-relative(table, typed, tail)? / before)
 }
 
 /// Slope of ln(value) against time by least squares.

@@ -61,7 +61,7 @@ pub fn stress<S: Space>(state: &State<S>, a: usize) -> S::Sym {
 
 /// The tensor with its compressive principal values set to zero: Gray, Monaghan & Swift 2001.
 ///
-/// Jacobi rotations: in the plane one is exact; in space four sweeps reach rounding. The shader does the
+/// Jacobi rotations: in the plane one is exact; in space five sweeps reach rounding. The shader does the
 /// same, since a driver's atan2 is only good to five digits.
 #[inline(always)]
 fn tensile_part<S: Space>(stress: S::Sym) -> S::Sym {

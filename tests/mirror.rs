@@ -1,0 +1,65 @@
+//! The host's structures against their twins in `shaders/lib/params.wgsl`: same members, same offsets, same size.
+
+use lithosph::backend::shader::{compose, offsets};
+use lithosph::pass::Pass;
+use lithosph::scene::Scene;
+use lithosph::state::{Body, Clock, Constraint, Method, Params};
+use std::mem::offset_of;
+
+/// The text of a pass that uses every structure.
+fn text() -> String {
+    let scene = include_str!("../scenes/colliding_rings.toml");
+    let method = Scene::parse(scene, "colliding_rings", None, &[]).unwrap().method;
+    compose(Pass::Kick, &Method { constraints: true, body_force: true, ..method })
+}
+
+/// Bytes of a structure as naga lays it out.
+fn span(structure: &str) -> u32 {
+    let module = naga::front::wgsl::parse_str(&text()).unwrap();
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(structure));
+    match found.map(|(_, ty)| &ty.inner) {
+        Some(naga::TypeInner::Struct { span, .. }) => *span,
+        _ => panic!("the shader has no structure {structure}"),
+    }
+}
+
+macro_rules! assert_mirrors {
+    ($structure:ident: $($member:ident),* $(,)?) => {{
+        let host = [$((stringify!($member).to_string(), offset_of!($structure<f32>, $member) as u32)),*];
+        assert_eq!(offsets(&text(), stringify!($structure)).unwrap(), host);
+        // A host structure with one more member than is named here does not compile.
+        let $structure::<f32> { $($member: _),* } = $structure::default();
+    }};
+}
+
+#[test]
+fn params_mirror_the_shader_s() {
+    assert_mirrors!(Params:
+        planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
+        artificial_exponent, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
+        body_force_x, body_force_y, body_force_z, normalisation, reach, slack, alpha, beta, softening, smoothing_weight,
+        artificial_epsilon, artificial_weight, cfl, fixed_step,
+    );
+    // Bound alone, in a buffer rounded up to the alignment of a vec4.
+    assert_eq!(size_of::<Params<f32>>().next_multiple_of(16), span("Params") as usize);
+}
+
+#[test]
+fn bodies_mirror_the_shader_s() {
+    assert_mirrors!(Body: density, bulk_modulus, shear_modulus, sound_speed, smoothing_length);
+    assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
+}
+
+#[test]
+fn constraints_mirror_the_shader_s() {
+    assert_mirrors!(Constraint: prescribed, course_first, course_count, padding, x, y, z, unused);
+    assert_eq!(size_of::<Constraint<f32>>(), span("Constraint") as usize);
+}
+
+#[test]
+fn clocks_mirror_the_shader_s() {
+    assert_mirrors!(Clock:
+        start, elapsed, elapsed_carry, step, duration, steps_left, steps_done, running, rebuild, lists_built, fault,
+    );
+    assert_eq!(size_of::<Clock<f32>>(), span("Clock") as usize);
+}

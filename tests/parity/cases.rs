@@ -1,0 +1,251 @@
+//! Scenes that together switch on everything: two blocks, or one in a periodic box, of at least 1000 particles.
+
+use crate::common::parse;
+use lithosph::scene::Scene;
+
+#[derive(Clone, Copy)]
+pub struct Case {
+    pub name: &'static str,
+    pub dimension: usize,
+    /// Spacing, Young's modulus and density of the first body.
+    pub units: [f64; 3],
+    pub bodies: usize,
+    /// Symmetry planes along the axes, so many; or one that is oblique.
+    pub planes: usize,
+    pub oblique: bool,
+    /// The planes along the axes go through particles, not between them.
+    pub through: bool,
+    pub periodic: bool,
+    pub boundary: bool,
+    pub fluid: bool,
+    pub compensated: bool,
+    /// Lines of the scene: those of no table, of the formulation, and of the time.
+    pub top: &'static str,
+    pub formulation: &'static str,
+    pub time: &'static str,
+}
+
+const PLAIN: [f64; 3] = [1.0, 1.0, 1.0];
+/// Steel in millimetres and seconds, as SI.
+const STEEL: [f64; 3] = [1e-3, 2e11, 7800.0];
+
+const BARE: Case = Case {
+    name: "bare",
+    dimension: 2,
+    units: PLAIN,
+    bodies: 1,
+    planes: 0,
+    oblique: false,
+    through: false,
+    periodic: false,
+    boundary: false,
+    fluid: false,
+    compensated: false,
+    top: "",
+    formulation: "",
+    time: "",
+};
+
+/// The cases of one dimension.
+pub fn cases(dimension: usize) -> Vec<Case> {
+    let list = [
+        Case {
+            name: "leapfrog, contact, planes, xsph, principal",
+            bodies: 2,
+            planes: dimension,
+            boundary: true,
+            compensated: true,
+            formulation: "viscosity = { alpha = 1.0, softening = 0.01 }\nxsph = 0.5\ninternal_energy = true
+                dissipated_energy = true\nartificial_stress = { epsilon = 0.3, exponent = 6 }",
+            ..BARE
+        },
+        Case {
+            name: "rk2, periodic, adjoint, filter, scalar",
+            units: STEEL,
+            periodic: true,
+            boundary: true,
+            compensated: true,
+            formulation:
+                "smoothing = \"wendland\"\ngradient = \"adjoint\"\nvelocity_filter = 0.4\nviscosity = { alpha = 0.7, beta = 0.3 }
+                dissipated_energy = true\nartificial_stress = { form = \"scalar\", epsilon = 0.2 }",
+            time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
+            name: "rk3, fluid, summation, corrected",
+            fluid: true,
+            formulation: "smoothing = \"quadratic\"\ndensity = \"summation\"\ngradient = \"corrected\"",
+            time: "integrator = \"ssp_rk3\"",
+            ..BARE
+        },
+        Case {
+            name: "rk4, oblique plane, adjoint, xsph, principal",
+            bodies: 2,
+            oblique: dimension > 1,
+            planes: usize::from(dimension == 1),
+            boundary: true,
+            compensated: true,
+            formulation:
+                "smoothing = \"gaussian\"\ngradient = \"adjoint\"\nxsph = 0.3\ninternal_energy = true\ndissipated_energy = true
+                viscosity = { alpha = 1.0 }\nartificial_stress = { epsilon = 0.3, exponent = 4 }",
+            time: "integrator = \"rk4\"",
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, fixed step, planes, filter, scalar, summation",
+            units: STEEL,
+            bodies: 2,
+            planes: 1,
+            through: true,
+            formulation: "density = \"summation\"\nvelocity_filter = 0.5\ninternal_energy = true
+                artificial_stress = { form = \"scalar\", epsilon = 0.3 }",
+            time: "step = 7e-8",
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, periodic, two bodies, plain, compensated",
+            bodies: 2,
+            periodic: true,
+            compensated: true,
+            formulation: "smoothing = \"wendland\"\ngradient = \"adjoint\"\nviscosity = { alpha = 0.1 }",
+            ..BARE
+        },
+    ];
+    list.map(|case| Case { dimension, ..case }).to_vec()
+}
+
+/// Sides of the first block, of the second, and the gap between, in spacings of the first.
+const SIDES: [[[f64; 3]; 2]; 3] =
+    [[[1002.0, 0.0, 0.0], [320.0, 0.0, 0.0]], [[60.0, 24.0, 0.0], [16.0, 16.0, 0.0]], [[12.0, 10.0, 9.0], [4.0, 8.0, 6.4]]];
+const GAP: f64 = 0.5;
+/// Side of a cell, and where the first edge lies on each axis, in spacings: a tenth or more from any particle.
+pub const CELL: f64 = 3.0;
+pub const EDGE: [f64; 3] = [0.0, 0.1, 0.1];
+/// Spacing of the second body over that of the first.
+const FINER: f64 = 0.8;
+
+impl Case {
+    /// Time in which sound crosses a spacing of the first body, about.
+    pub fn moment(&self) -> f64 {
+        self.units[0] * (self.units[2] / self.units[1]).sqrt()
+    }
+
+    fn point(&self, x: [f64; 3]) -> String {
+        let numbers: Vec<String> = x[..self.dimension].iter().map(|x| format!("{:e}", x * self.units[0])).collect();
+        format!("[{}]", numbers.join(", "))
+    }
+
+    fn block(&self, name: &str, from: f64, sides: [f64; 3], spacing: f64) -> String {
+        let end = [from + sides[0], sides[1], sides[2]];
+        let (min, max) = (self.point([from, 0.0, 0.0]), self.point(end));
+        let anchor = self.point([from + 0.5 * spacing, 0.5 * spacing, 0.5 * spacing]);
+        format!(
+            "[[body]]\nname = \"{name}\"\nshape = {{ block = {{ min = {min}, max = {max} }} }}\nspacing = {:e}\n\
+             anchor = {anchor}\nmaterial = \"{name}\"\n",
+            spacing * self.units[0]
+        )
+    }
+
+    fn material(&self, name: &str, stiffer: f64) -> String {
+        let [_, modulus, density] = self.units;
+        let density = density * (1.0 + 0.3 * (stiffer - 1.0));
+        match self.fluid {
+            true => {
+                format!("[material.{name}]\nlaw = \"fluid\"\ndensity = {density:e}\nbulk_modulus = {:e}\n", modulus * stiffer)
+            }
+            false => format!(
+                "[material.{name}]\ndensity = {density:e}\nyoungs_modulus = {:e}\npoisson_ratio = 0.3\n",
+                modulus * stiffer
+            ),
+        }
+    }
+
+    /// One condition that prescribes along the first axis, one that pushes, one that does both.
+    fn boundaries(&self) -> String {
+        let [length, modulus, density] = self.units;
+        let speed = (modulus / density).sqrt();
+        let force = modulus * length.powi(self.dimension as i32 - 1);
+        // The clock stands between the last two points, before the first, and after the last.
+        let course = |points: [[f64; 2]; 3]| points.map(|[t, f]| format!("[{:e}, {f}]", t * self.moment())).join(", ");
+        let between = course([[-100.0, 0.3], [0.05, 1.7], [200.0, 0.6]]);
+        let before = course([[1000.0, 0.4], [1100.0, 1.0], [1200.0, 3.0]]);
+        let after = course([[-3.0, 0.9], [-2.0, 1.0], [-1.0, 0.45]]);
+        let slab = |from: f64, to: f64| {
+            format!(
+                "[[boundary]]\nselect = {{ inside = {{ block = {{ min = {}, max = {} }} }} }}\n",
+                self.point([from, -1.0, -1.0]),
+                self.point([to, 99.0, 99.0])
+            )
+        };
+        let list = |numbers: [f64; 3]| numbers[..self.dimension].iter().map(|x| format!("{x:e}")).collect::<Vec<_>>().join(", ");
+        let mut held = vec![format!("{:e}", 0.01 * speed)];
+        held.resize(self.dimension, "\"free\"".into());
+        let pushed = [0.5 * force, -0.7 * force, 0.3 * force];
+        format!(
+            "{}velocity = [{held}]\ncourse = [{between}]\n{}force = [{pushed}]\ncourse = [{before}]\n\
+             {}velocity = [{held}]\nforce = [{pushed}]\n{}force = [{pushed}]\ncourse = [{between}]\n\
+             {}velocity = [{held}]\ncourse = [{after}]\n",
+            slab(0.0, 1.0),
+            slab(2.0, 3.0),
+            slab(4.0, 5.0),
+            slab(6.0, 7.0),
+            slab(8.0, 9.0),
+            held = held.join(", "),
+            pushed = list(pushed),
+        )
+    }
+
+    fn symmetries(&self) -> String {
+        let planes = (0..self.planes).map(|axis| {
+            let mut normal = [0.0; 3];
+            normal[axis] = 1.0;
+            let point = self.point([if self.through { 0.5 } else { 0.0 }; 3]);
+            format!("[[symmetry]]\npoint = {point}\nnormal = {:?}\n", &normal[..self.dimension])
+        });
+        let oblique = self.oblique.then(|| {
+            format!("[[symmetry]]\npoint = {}\nnormal = {:?}\n", self.point([0.0, -0.3, 0.0]), &[0.6, 0.8, 0.0][..self.dimension])
+        });
+        planes.chain(oblique).collect()
+    }
+
+    pub fn text(&self) -> String {
+        let [length, ..] = self.units;
+        let [first, second] = SIDES[self.dimension - 1];
+        let mut text = format!(
+            "title = \"{}\"\ndimension = {}\nspacing = {length:e}\nduration = 1.0\n{}\n",
+            self.name, self.dimension, self.top
+        );
+        if self.boundary {
+            let pull = 0.01 * self.units[1] / self.units[2] / length;
+            let numbers: Vec<String> =
+                [pull, -2.0 * pull, 0.5 * pull][..self.dimension].iter().map(|x| format!("{x:e}")).collect();
+            text += &format!("body_force = [{}]\n", numbers.join(", "));
+        }
+        if self.periodic {
+            let length = first[0] + if self.bodies == 2 { second[0] + 2.0 * GAP } else { 0.0 };
+            let along = (length / CELL).ceil() * CELL;
+            // The middle axis stays open.
+            let across = if self.bodies == 1 { first[2] } else { 0.0 };
+            let period = [along, 0.0, across];
+            text += &format!("periodic = {}\n", self.point(period));
+        }
+        text += &self.block("first", 0.0, first, 1.0);
+        if self.bodies == 2 {
+            text += &self.block("second", first[0] + GAP, second, FINER);
+        }
+        text += &self.material("first", 1.0);
+        text += &self.material("second", 2.2);
+        if self.bodies == 2 {
+            text += "[[contact]]\nbetween = [\"first\", \"second\"]\nkernel = 0.6\n";
+        }
+        if self.boundary {
+            text += &self.boundaries();
+        }
+        text += &self.symmetries();
+        text + &format!("[formulation]\n{}\n[time]\n{}\n", self.formulation, self.time)
+    }
+
+    pub fn scene(&self) -> Scene {
+        parse(&self.text())
+    }
+}
