@@ -167,8 +167,12 @@ fn period(rows: &[(f64, f64)]) -> f64 {
 
 /// The table as text.
 pub fn text(rows: &[Row]) -> String {
-    let mut out =
-        format!("{:<28} {:<22} {:>13} {:>18} {:<14} {:<10} source\n", "scene", "observable", "seen", "expected", "tolerance", "");
+    let longest = |of: fn(&Row) -> &str| rows.iter().map(|row| of(row).len()).max().unwrap_or(0).max(10);
+    let (scene, name, expected) = (longest(|r| &r.scene), longest(|r| &r.name), longest(|r| &r.expected));
+    let mut out = format!(
+        "{:<scene$} {:<name$} {:>13} {:>expected$} {:<14} {:<10} source\n",
+        "scene", "observable", "seen", "expected", "tolerance", ""
+    );
     for row in rows {
         let verdict = match row.verdict {
             Verdict::Pass => "pass",
@@ -181,7 +185,7 @@ pub fn text(rows: &[Row]) -> String {
             (row.tolerance.as_str(), String::new())
         };
         out += &format!(
-            "{:<28} {:<22} {:>13.6e} {:>18} {:<14} {:<10} {}{because}\n",
+            "{:<scene$} {:<name$} {:>13.6e} {:>expected$} {:<14} {:<10} {}{because}\n",
             row.scene, row.name, row.seen, row.expected, tolerance, verdict, row.source
         );
     }

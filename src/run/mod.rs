@@ -255,10 +255,12 @@ impl<'a> Run<'a> {
         let fetched = fetched.map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
         if row {
-            let values = observe(&moment, &self.observers);
             self.table.times.push(time);
-            for (name, value) in &values {
-                self.table.columns.entry(name.clone()).or_default().push(*value);
+            for observer in &self.observers {
+                if let Value::Series(of) = observer.kind.value {
+                    let column = self.table.columns.entry(observer.name.clone()).or_default();
+                    column.push(unwrapped(observer, of(&moment, observer), column.last()));
+                }
             }
         }
         self.write(&moment, row, frame).map_err(|e| self.fail(&e))
@@ -280,7 +282,6 @@ impl<'a> Run<'a> {
     }
 
     fn finish(mut self) -> Result<Finished, Stop> {
-        unwrap_angles(&mut self.table, &self.observers);
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
@@ -304,22 +305,11 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Name and value of every series observable.
-fn observe(moment: &Moment, observers: &[Observer]) -> Vec<(String, f64)> {
-    let value = |o: &Observer| match o.kind.value {
-        Value::Series(of) => Some((o.name.clone(), of(moment, o))),
-        _ => None,
-    };
-    observers.iter().filter_map(value).collect()
-}
-
-/// Angles are found between -180 and 180 degrees; a series of them is continuous.
-fn unwrap_angles(table: &mut Table, observers: &[Observer]) {
-    for observer in observers.iter().filter(|o| o.kind.word == "rotation_angle") {
-        let Some(column) = table.columns.get_mut(&observer.name) else { continue };
-        for k in 1..column.len() {
-            column[k] -= 360.0 * ((column[k] - column[k - 1]) / 360.0).round();
-        }
+/// An angle is found between -180 and 180 degrees; a series of them goes on over full turns.
+fn unwrapped(observer: &Observer, value: f64, before: Option<&f64>) -> f64 {
+    match before {
+        Some(before) if observer.kind.word == "rotation_angle" => value - 360.0 * ((value - before) / 360.0).round(),
+        _ => value,
     }
 }
 
