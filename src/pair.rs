@@ -102,50 +102,68 @@ pub fn separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
 const LANES: usize = 8;
 
 /// Up to [`LANES`] neighbours of one particle, their kernel gradients evaluated together.
-pub struct Block<'a, S: Space> {
-    entries: &'a [u32],
+pub struct Block<S: Space> {
+    count: usize,
+    entry: [u32; LANES],
     x: [S::Vec; LANES],
     distance: [S::Real; LANES],
     h: [S::Real; LANES],
     gradient: [S::Real; LANES],
 }
 
-/// The neighbours of particle a, in the order of its list, as blocks:
+/// The neighbours of particle a within the kernel's support, in the order of its list, as blocks:
 /// `for block in blocks::<S, K>(state, a) { for pair in block.pairs() { … } }`.
 ///
-/// Two plain loops, because a visitor passed as a closure is not inlined once its body is large. Separations
-/// are gathered one by one; then the kernel is evaluated for the whole block, which the compiler turns into
-/// vector instructions. Neighbours beyond the kernel's support get a zero gradient.
+/// Two plain loops, because a visitor passed as a closure is not inlined once its body is large. A list reaches
+/// beyond the support (on a cubic lattice with h = 1.22 spacings 80 entries for 56 neighbours), so entries are
+/// first sifted, without a branch; then the kernel is evaluated for the whole block, which the compiler turns
+/// into vector instructions.
 #[inline(always)]
-pub fn blocks<S: Space, K: Kernel>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<'_, S>> {
+pub fn blocks<S: Space, K: Kernel>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<S>> {
     let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
     let h_a = state.body(a).smoothing_length;
     let own = (S::Real::of(1.0) / h_a, kernel.gradient_factor(h_a));
-    state.neighbors_of(a).chunks(LANES).map(move |entries| gather::<S, K>(state, a, entries, kernel, own))
+    let mut entries = state.neighbors_of(a);
+    std::iter::from_fn(
+        move || {
+            if entries.is_empty() { None } else { Some(next_block::<S, K>(state, a, &mut entries, kernel, h_a, own)) }
+        },
+    )
 }
 
+/// Takes entries until a block is full or none is left.
 #[inline(always)]
-fn gather<'a, S: Space, K: Kernel>(
+fn next_block<S: Space, K: Kernel>(
     state: &State<S>,
     a: usize,
-    entries: &'a [u32],
+    entries: &mut &[u32],
     kernel: Scaled<S::Real>,
+    h_a: S::Real,
     own: (S::Real, S::Real),
-) -> Block<'a, S> {
-    let h_a = state.body(a).smoothing_length;
+) -> Block<S> {
+    let mut entry = [0; LANES];
     let mut x = [S::Vec::default(); LANES];
     let mut h = [h_a; LANES];
-    let (mut inverse, mut factor) = ([own.0; LANES], [own.1; LANES]);
     let mut square = [S::Real::of(1.0); LANES];
-    for (lane, &entry) in entries.iter().enumerate() {
-        x[lane] = separation(state, a, entry);
-        square[lane] = S::inner(x[lane], x[lane]);
+    let (mut count, mut taken) = (0, 0);
+    for &candidate in entries.iter() {
+        let apart = separation(state, a, candidate);
+        let mut h_ab = h_a;
         if state.method.many_bodies {
-            let h_b = state.body((entry & NEIGHBOR_MASK) as usize).smoothing_length;
-            if h_b != h_a {
-                h[lane] = S::Real::of(0.5) * (h_a + h_b);
-                (inverse[lane], factor[lane]) = (S::Real::of(1.0) / h[lane], kernel.gradient_factor(h[lane]));
-            }
+            h_ab = S::Real::of(0.5) * (h_a + state.body((candidate & NEIGHBOR_MASK) as usize).smoothing_length);
+        }
+        (entry[count], x[count], h[count], square[count]) = (candidate, apart, h_ab, S::inner(apart, apart));
+        count += usize::from(square[count] < S::Real::of(4.0) * h_ab * h_ab);
+        taken += 1;
+        if count == LANES {
+            break;
+        }
+    }
+    *entries = &entries[taken..];
+    let (mut inverse, mut factor) = ([own.0; LANES], [own.1; LANES]);
+    if state.method.many_bodies && h != [h_a; LANES] {
+        for lane in 0..LANES {
+            (inverse[lane], factor[lane]) = (S::Real::of(1.0) / h[lane], kernel.gradient_factor(h[lane]));
         }
     }
     let mut distance = [S::Real::default(); LANES];
@@ -154,15 +172,15 @@ fn gather<'a, S: Space, K: Kernel>(
         distance[lane] = square[lane].sqrt();
         gradient[lane] = kernel.gradient_at::<K>(distance[lane], h[lane], inverse[lane], factor[lane]);
     }
-    Block { entries, x, distance, h, gradient }
+    Block { count, entry, x, distance, h, gradient }
 }
 
-impl<S: Space> Block<'_, S> {
+impl<S: Space> Block<S> {
     #[inline(always)]
     pub fn pairs(&self) -> impl Iterator<Item = Pair<S>> {
-        self.entries.iter().enumerate().map(|(lane, &entry)| Pair {
-            b: (entry & NEIGHBOR_MASK) as usize,
-            image: entry >> NEIGHBOR_BITS,
+        (0..self.count).map(|lane| Pair {
+            b: (self.entry[lane] & NEIGHBOR_MASK) as usize,
+            image: self.entry[lane] >> NEIGHBOR_BITS,
             x: self.x[lane],
             distance: self.distance[lane],
             h: self.h[lane],
