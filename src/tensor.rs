@@ -5,9 +5,13 @@
 //! [`Solid`] in each precision. Plane means plane strain: a deviator's zz follows from its zero trace,
 //! so only xx, yy and xy are stored; on a line only xx is.
 
+mod tuple;
+
+pub use tuple::{Linear, Tuple};
+
 use std::fmt::Debug;
 use std::marker::PhantomData;
-use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A scalar: f32 (as on the GPU) or f64 (as on the CPU path).
 pub trait Real:
@@ -96,96 +100,6 @@ macro_rules! real {
 }
 real!(f32);
 real!(f64);
-
-/// N numbers with the arithmetic of a linear space; every vector and tensor is one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(transparent)]
-pub struct Tuple<R, const N: usize>(pub [R; N]);
-
-// SAFETY: a transparent array of plain numbers, without padding.
-unsafe impl<R: Real, const N: usize> bytemuck::Zeroable for Tuple<R, N> {}
-// SAFETY: as above; every bit pattern is valid.
-unsafe impl<R: Real, const N: usize> bytemuck::Pod for Tuple<R, N> {}
-
-impl<R: Real, const N: usize> Default for Tuple<R, N> {
-    #[inline(always)]
-    fn default() -> Self {
-        Self([R::default(); N])
-    }
-}
-impl<R: Real, const N: usize> Add for Tuple<R, N> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(mut self, other: Self) -> Self {
-        self += other;
-        self
-    }
-}
-impl<R: Real, const N: usize> AddAssign for Tuple<R, N> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        for k in 0..N {
-            self.0[k] += other.0[k];
-        }
-    }
-}
-impl<R: Real, const N: usize> Sub for Tuple<R, N> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(mut self, other: Self) -> Self {
-        for k in 0..N {
-            self.0[k] -= other.0[k];
-        }
-        self
-    }
-}
-impl<R: Real, const N: usize> Mul<R> for Tuple<R, N> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(mut self, scale: R) -> Self {
-        for k in 0..N {
-            self.0[k] = self.0[k] * scale;
-        }
-        self
-    }
-}
-impl<R, const N: usize> Index<usize> for Tuple<R, N> {
-    type Output = R;
-    #[inline(always)]
-    fn index(&self, k: usize) -> &R {
-        &self.0[k]
-    }
-}
-impl<R, const N: usize> IndexMut<usize> for Tuple<R, N> {
-    #[inline(always)]
-    fn index_mut(&mut self, k: usize) -> &mut R {
-        &mut self.0[k]
-    }
-}
-
-/// What [`Space`] asks of its vector and tensor types; implemented by [`Tuple`] alone.
-pub trait Linear<R>:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Send
-    + Sync
-    + bytemuck::Pod
-    + Add<Output = Self>
-    + AddAssign
-    + Sub<Output = Self>
-    + Mul<R, Output = Self>
-    + Index<usize, Output = R>
-    + IndexMut<usize>
-    + 'static
-{
-    /// Numbers stored, padding included.
-    const LENGTH: usize;
-}
-impl<R: Real, const N: usize> Linear<R> for Tuple<R, N> {
-    const LENGTH: usize = N;
-}
 
 /// A dimension and a precision. Operations have the names that the shaders use.
 pub trait Space: Copy + Send + Sync + 'static {
@@ -469,51 +383,4 @@ impl<R: Real> Space for Solid<R> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sample<S: Space>(seed: u64) -> S::Mat {
-        let mut m = S::mat_identity();
-        let mut state = seed;
-        for i in 0..S::DIMENSION {
-            for j in 0..S::DIMENSION {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                m[S::mat_index(i, j)] += S::Real::of(((state >> 33) as f64 / 2f64.powi(31) - 0.5) * 0.6);
-            }
-        }
-        m
-    }
-
-    fn inverse_holds<S: Space>() {
-        for seed in 1..50 {
-            let m = sample::<S>(seed);
-            let product = S::mat_mat(m, S::adjugate(m)) * (S::Real::of(1.0) / S::determinant(m));
-            let error = product - S::mat_identity();
-            for k in 0..S::Mat::LENGTH {
-                assert!(error[k].f64().abs() < 1e-13, "{product:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn adjugate_over_determinant_is_the_inverse() {
-        inverse_holds::<Line<f64>>();
-        inverse_holds::<Plane<f64>>();
-        inverse_holds::<Solid<f64>>();
-    }
-
-    #[test]
-    fn symmetric_and_skew_parts_add_up() {
-        let m = sample::<Solid<f64>>(7);
-        let sum = Solid::<f64>::mat_of_sym(Solid::<f64>::sym_part(m)) + Solid::<f64>::skew_part(m);
-        assert_eq!((sum - m).0.map(|x| x.abs() < 1e-15), [true; 12]);
-    }
-
-    #[test]
-    fn outer_product_acts_as_its_definition() {
-        type S = Solid<f64>;
-        let (a, b, v) = (S::vec_from([1.0, 2.0, 3.0]), S::vec_from([-1.0, 0.5, 4.0]), S::vec_from([0.3, 0.7, -2.0]));
-        let seen = S::mat_vec(S::outer(a, b), v);
-        assert_eq!(S::vec_to(seen), S::vec_to(a * S::inner(b, v)));
-    }
-}
+mod tests;

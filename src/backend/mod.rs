@@ -44,6 +44,7 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
         }
         Choice::Cpu | Choice::Cpu32 => None,
     };
+    budget(scene, adapter.as_ref(), choice)?;
     match (scene.dimension(), adapter, choice) {
         (1, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Line<f32>>(true))?)),
         (2, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Plane<f32>>(true))?)),
@@ -59,6 +60,33 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
 
 /// Columns as the host keeps them: f64, padded as the space pads them; integers as whole numbers.
 pub type Columns = BTreeMap<Field, Vec<f64>>;
+
+/// Refuses a scene whose tables do not fit: drivers overcommit, and fail later without a word.
+fn budget(scene: &Scene, adapter: Option<&wgpu::Adapter>, choice: &Choice) -> Result<(), String> {
+    let single = adapter.is_some() || *choice == Choice::Cpu32;
+    let needed = scene.state_bytes(if single { 4 } else { 8 }, single);
+    let device = adapter.map(device::DeviceInfo::of).filter(|info| !info.software).and_then(|info| info.memory);
+    let Some(there) = device.or_else(available_memory) else { return Ok(()) };
+    if needed <= there {
+        return Ok(());
+    }
+    let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+    Err(format!(
+        "{}: {} particles take {:.1} GB, and {:.1} GB are free: raise the spacing, or choose another device",
+        scene.label(),
+        scene.particles.len(),
+        gigabytes(needed),
+        gigabytes(there)
+    ))
+}
+
+/// Memory that the host can still give, where it tells.
+fn available_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("MemAvailable:"))?;
+    let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(1024 * kibibytes)
+}
 
 /// The machine that steps a run.
 pub trait Backend {

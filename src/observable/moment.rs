@@ -5,6 +5,7 @@ use crate::material;
 use crate::output::{Column, Snapshot};
 use crate::particles::{Field, Type, unit_text};
 use crate::scene::Scene;
+use crate::scene::file::Units;
 use crate::scene::read::hint;
 
 /// Fields at one time.
@@ -194,18 +195,20 @@ impl<'a> Moment<'a> {
         }
     }
 
+    /// Unit of a quantity in words; nothing where the scene has no dimensions.
     fn unit(&self, word: &str) -> String {
-        let names = self.scene.unit_names();
-        let exponents = match word {
-            "position" | "displacement" => Field::Displacement.unit(),
-            "velocity" => Field::Velocity.unit(),
-            "acceleration" => Field::Acceleration.unit(),
-            "stress" | "pressure" => Field::DeviatoricStress.unit(),
-            "density" => [-3, 1, 0],
-            "internal_energy" | "dissipated_energy" => Field::InternalEnergy.unit(),
-            _ => [0, 0, 0],
-        };
-        unit_text(exponents, names)
+        let names @ [length, _, time] = self.scene.unit_names();
+        match (word, self.scene.file.units) {
+            (_, Units::Dimensionless) => String::new(),
+            ("stress" | "pressure", Units::Si) => "Pa".into(),
+            ("stress" | "pressure", Units::MillimetreTonneSecond) => "MPa".into(),
+            ("velocity", _) => format!("{length}/{time}"),
+            ("acceleration", _) => format!("{length}/{time}^2"),
+            ("position" | "displacement", _) => length.into(),
+            ("density", _) => unit_text([-3, 1, 0], names),
+            ("internal_energy" | "dissipated_energy", _) => unit_text(Field::InternalEnergy.unit(), names),
+            _ => String::new(),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::file::Viscosity;
-use crate::particles::Particles;
+use crate::particles::{Field, Particles, Type};
 use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::{Real, Space};
@@ -38,6 +38,20 @@ impl Scene {
         self.fill_constraints(&mut state);
         self.fill_particles(&mut state);
         state
+    }
+
+    /// Bytes that the tables take where a number has `word` bytes.
+    pub fn state_bytes(&self, word: usize, compensated: bool) -> u64 {
+        let mut method = self.method.clone();
+        method.compensated = compensated;
+        let bytes = |field: Field| {
+            let size = if field.kind() == Type::Integer { 4 } else { word };
+            size * field.kind().words_in(self.dimension())
+        };
+        let columns: usize = step::fields(&method).into_iter().map(bytes).sum();
+        let params = self.params::<f64>();
+        let particle = (columns + 4 * (1 + params.list_capacity as usize)) as u64;
+        particle * self.particles.len() as u64 + 8 * u64::from(params.cell_total)
     }
 
     fn fill_constraints<S: Space>(&self, state: &mut State<S>) {
