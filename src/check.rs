@@ -1,6 +1,6 @@
 //! Compares a finished run with what its scene expects.
 
-use crate::observable::{KINDS, Table, Value};
+use crate::observable::{KINDS, Value};
 use crate::output::csv;
 use crate::run::Finished;
 use crate::scene::Scene;
@@ -190,9 +190,4 @@ pub fn text(rows: &[Row]) -> String {
         );
     }
     out
-}
-
-/// A series by name, for tests.
-pub fn series<'a>(table: &'a Table, name: &str) -> &'a [f64] {
-    table.columns.get(name).map_or(&[], Vec::as_slice)
 }

@@ -247,6 +247,8 @@ fn check_scenes(args: &CheckArgs) -> Result<i32, Stop> {
 }
 
 fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
+    // A slip in the last variant should not show only after the others have run.
+    scene::read::read(path, None, &[]).and_then(|read| read.check_variants()).map_err(Stop::Refused)?;
     let variants: Vec<Option<String>> = match &args.variant {
         Some(word) if word == "none" => vec![None],
         Some(word) => vec![Some(word.clone())],

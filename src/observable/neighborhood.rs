@@ -69,8 +69,7 @@ fn least_distance(moment: &Moment, observer: &Observer) -> f64 {
     least / spacing
 }
 
-/// rms over particles of the departure from the best-fitting affine image of the particles' first neighbours
-/// would need a fit; the spread of nearest distances tells the same: 0 on a lattice, about 0.2 in a gas.
+/// Spread of the distances to the nearest particle: 0 on a lattice, about 0.2 in a gas.
 fn disorder(moment: &Moment, observer: &Observer) -> f64 {
     let (points, spacing) = (points(moment, observer), spacing(moment, observer));
     let mut nearest = vec![f64::INFINITY; points.len()];

@@ -46,7 +46,6 @@ const MOST_OUTPUTS: f64 = 1e6;
 /// Single numbers that must lie in a range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
-    let f = &file.formulation;
     refuse.unless((1..=3).contains(&file.dimension), &["dimension"], || {
         format!("dimension must be 1, 2 or 3, found {}", file.dimension)
     })?;
@@ -55,13 +54,30 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     };
     one(file.spacing, &["spacing"], "spacing")?;
     one(file.duration, &["duration"], "duration")?;
-    one(f.smoothing_length, &["formulation", "smoothing_length"], "smoothing_length (in spacings)")?;
+    one(file.formulation.smoothing_length, &["formulation", "smoothing_length"], "smoothing_length (in spacings)")?;
     one(file.time.cfl, &["time", "cfl"], "cfl")?;
     if let Some(step) = file.time.step {
         one(step, &["time", "step"], "step")?;
     }
+    let fits = file.body_force.as_ref().is_none_or(|g| g.len() == file.dimension);
+    refuse.unless(fits, &["body_force"], || format!("body_force takes {} components", file.dimension))?;
+    outputs(file, refuse)?;
+    weights(file, refuse)?;
+    if let Some(course) =
+        file.boundary.iter().find(|b| b.course.as_ref().is_some_and(|c| c.windows(2).any(|w| w[1][0] <= w[0][0])))
+    {
+        let name = course.name.clone().unwrap_or_default();
+        return Err(refuse.at(&["boundary"], format!("times of the course of boundary `{name}` must increase")));
+    }
+    refuse.unless(!file.body.is_empty(), &["body"], || "a scene needs at least one [[body]]".into())
+}
+
+/// Intervals and sizes of what is written.
+fn outputs(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(series) = file.output.series {
-        one(series, &["output", "series"], "series (time between rows)")?;
+        refuse.unless(series > 0.0 && series.is_finite(), &["output", "series"], || {
+            format!("series (time between rows) must be a positive number, found {series}")
+        })?;
     }
     for (interval, key) in [(file.output.series, "series"), (file.output.frames, "frames")] {
         let few = interval.is_none_or(|interval| interval == 0.0 || file.duration / interval <= MOST_OUTPUTS);
@@ -72,15 +88,20 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
             format!("frames (time between pictures) must not be negative, found {frames}")
         })?;
     }
-    let fits = f.list_margin.is_none_or(|margin| (0.02..=1.0).contains(&margin));
-    refuse
-        .unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
-    refuse.unless(f.list_capacity != Some(0), &["formulation", "list_capacity"], || "list_capacity must not be 0".into())?;
     let picture = &file.output.picture;
     let fits = (160..=8192).contains(&picture.width) && (120..=8192).contains(&picture.height);
     refuse.unless(fits, &["output", "picture"], || {
         format!("a picture has 160 x 120 to 8192 x 8192 pixels, found {} x {}", picture.width, picture.height)
-    })?;
+    })
+}
+
+/// Weights and coefficients of the formulation.
+fn weights(file: &File, refuse: &Refuse) -> Result<(), String> {
+    let f = &file.formulation;
+    let fits = f.list_margin.is_none_or(|margin| (0.02..=1.0).contains(&margin));
+    refuse
+        .unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
+    refuse.unless(f.list_capacity != Some(0), &["formulation", "list_capacity"], || "list_capacity must not be 0".into())?;
     for (weight, key) in [(f.xsph, "xsph"), (f.velocity_filter, "velocity_filter")] {
         let fits = weight.is_none_or(|w| (0.0..=1.0).contains(&w));
         refuse.unless(fits, &["formulation", key], || format!("{key} must lie between 0 and 1"))?;
@@ -95,13 +116,7 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
             "epsilon must not be negative".into()
         })?;
     }
-    if let Some(course) =
-        file.boundary.iter().find(|b| b.course.as_ref().is_some_and(|c| c.windows(2).any(|w| w[1][0] <= w[0][0])))
-    {
-        let name = course.name.clone().unwrap_or_default();
-        return Err(refuse.at(&["boundary"], format!("times of the course of boundary `{name}` must increase")));
-    }
-    refuse.unless(!file.body.is_empty(), &["body"], || "a scene needs at least one [[body]]".into())
+    Ok(())
 }
 
 fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {

@@ -11,6 +11,9 @@ use glam::DVec3;
 /// Cells may outnumber particles this many times before they are made larger.
 const CELLS_PER_PARTICLE: usize = 4;
 
+/// Keeps the viscosity of a particle on a mirror plane and its own image from being 0/0; lost in rounding elsewhere.
+const LEAST_SOFTENING: f64 = 1e-9;
+
 impl Scene {
     /// All tables at time zero. `compensated` keeps the digits that f32 sums would drop.
     pub fn state<S: Space>(&self, compensated: bool) -> State<S> {
@@ -173,7 +176,7 @@ impl Scene {
             slack: real(0.5 * self.file.list_margin() * self.smoothing_length()),
             alpha: real(viscosity.alpha),
             beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
-            softening: real(viscosity.softening),
+            softening: real(viscosity.softening.max(LEAST_SOFTENING)),
             smoothing_weight: real(f.xsph.or(f.velocity_filter).unwrap_or(0.0)),
             artificial_epsilon: real(f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon)),
             artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
