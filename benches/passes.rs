@@ -6,6 +6,7 @@
 //! Machines are shared, so times on the CPU path are processor seconds, and the best of several rounds counts.
 
 use lithosph::backend::cpu::processor_seconds;
+use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Choice, open};
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
@@ -60,6 +61,28 @@ fn copy_bandwidth() -> f64 {
     16.0 * source.len() as f64 / best
 }
 
+/// The same for a copy between two buffers of the adapter that a run would use.
+fn device_copy_bandwidth() -> Result<f64, String> {
+    let adapter = choose(Want::Gpu, None)?.ok_or("no adapter")?;
+    let opened = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
+    let (device, queue) = opened.map_err(|error| error.to_string())?;
+    let size = 1 << 28;
+    let usage = wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+    let buffer = || device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false });
+    let (source, target) = (buffer(), buffer());
+    let copies = 8;
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        (0..copies).for_each(|_| encoder.copy_buffer_to_buffer(&source, 0, &target, 0, size));
+        let begin = Instant::now();
+        queue.submit([encoder.finish()]);
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
+        best = best.min(begin.elapsed().as_secs_f64());
+    }
+    Ok(2.0 * (size * copies) as f64 / best)
+}
+
 fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> {
     let scene = scene(particles, method);
     let count = scene.particles.len() as f64;
@@ -80,7 +103,7 @@ fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> 
     println!("\n{count} particles, {method}, {neighbors:.1} neighbours in reach, {}", backend.describe());
     println!("{:.0} bytes a particle", backend.bytes() as f64 / count);
     println!("step {:.3} ms: {:.3e} particle-updates a second, {:.3e} a core-second", wall * 1e3, count / wall, count / busy);
-    let bandwidth = copy_bandwidth();
+    let bandwidth = if *choice == Choice::Cpu { copy_bandwidth() } else { device_copy_bandwidth()? };
     // Each particle's tables once in and once out is the least that a step can move.
     let least = backend.bytes() as f64 / wall;
     println!(
