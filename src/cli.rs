@@ -53,9 +53,9 @@ struct Where {
     /// Part of an adapter's name, as `lithosph devices` prints it.
     #[arg(long)]
     adapter: Option<String>,
-    /// Precision of the CPU path; a GPU steps in f32.
-    #[arg(long, value_enum, default_value = "f64")]
-    precision: PrecisionWord,
+    /// Precision of the CPU path, f64 unless given; a GPU steps in f32.
+    #[arg(long, value_enum)]
+    precision: Option<PrecisionWord>,
     /// Threads of the CPU path; all cores unless given.
     #[arg(long)]
     threads: Option<usize>,
@@ -70,9 +70,12 @@ impl Where {
             (BackendWord::Cpu, _) if self.adapter.is_some() => {
                 return Err(Stop::Refused("--adapter names a graphics adapter, and --backend cpu takes none".into()));
             }
+            (BackendWord::Auto | BackendWord::Gpu, Some(_)) => {
+                return Err(Stop::Refused("--precision is that of the CPU path: it goes with --backend cpu".into()));
+            }
             (BackendWord::Auto, _) if self.adapter.is_none() => Choice::Auto,
-            (BackendWord::Cpu, PrecisionWord::F32) => Choice::Cpu32,
-            (BackendWord::Cpu, PrecisionWord::F64) => Choice::Cpu,
+            (BackendWord::Cpu, Some(PrecisionWord::F32)) => Choice::Cpu32,
+            (BackendWord::Cpu, _) => Choice::Cpu,
             _ => Choice::Gpu(self.adapter.clone()),
         })
     }
