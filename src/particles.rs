@@ -123,11 +123,15 @@ fields! {
     acceleration: Acceleration, Vec, ACCELERATION, true, "force over mass, before constraints";
     volumetric_strain: VolumetricStrain, Real, NONE, true, "reference density over density, minus 1";
     deviatoric_stress: DeviatoricStress, Sym, STRESS, true, "stress less its mean";
+    displacement_gradient: DisplacementGradient, Mat, NONE, true, "H = F - 1: derivative of the displacement by the reference position";
+    viscous_strain: ViscousStrain, Sym, NONE, true, "C_i - 1 of a Maxwell body, its inelastic Cauchy-Green tensor less the unit tensor";
     internal_energy: InternalEnergy, Real, SPECIFIC_ENERGY, true, "internal energy per mass";
     dissipated_energy: DissipatedEnergy, Real, SPECIFIC_ENERGY, true, "energy per mass that viscosity has turned into heat";
     smoothed_velocity: SmoothedVelocity, Vec, VELOCITY, false, "velocity averaged over neighbours (XSPH)";
     velocity_gradient: VelocityGradient, Mat, RATE, true, "dv_i/dx_j";
     correction: Correction, Mat, NONE, false, "inverse of the first moment of the kernel gradient";
+    reference_correction: ReferenceCorrection, Sym, NONE, false, "inverse of the first moment of the kernel gradient in the reference configuration";
+    bond_stress: BondStress, Mat, STRESS, false, "first Piola-Kirchhoff stress times the gradient correction, less the hourglass stiffness times H";
     specific_stress: SpecificStress, Sym, SPECIFIC_STRESS, false, "stress over density squared";
     corrected_stress: CorrectedStress, Mat, STRESS, false, "stress times the gradient correction";
     artificial_pressure: ArtificialPressure, Real, SPECIFIC_STRESS, false, "Monaghan's artificial stress, scalar form, over density squared";

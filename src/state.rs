@@ -1,8 +1,9 @@
 //! Everything that the passes of a run read and write, in one precision: the CPU path steps a
 //! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
 
+use crate::material::Law;
 use crate::particles::Particles;
-use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use crate::smoothing::Smoothing;
 use crate::tensor::{Real, Space};
 
@@ -10,6 +11,9 @@ use crate::tensor::{Real, Space};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Method {
     pub dimension: usize,
+    pub kind: Kind,
+    /// Laws of the scene's materials, each once, in order of their numbers.
+    pub laws: Vec<Law>,
     pub smoothing: Smoothing,
     pub integrator: Integrator,
     pub density: Density,
@@ -23,6 +27,8 @@ pub struct Method {
     pub symmetry: bool,
     pub periodic: bool,
     pub body_force: bool,
+    /// Energy against motions that the deformation gradient does not see.
+    pub hourglass: bool,
     pub viscosity: bool,
     pub xsph: bool,
     pub velocity_filter: bool,
@@ -34,12 +40,19 @@ pub struct Method {
 }
 
 impl Method {
+    /// Some law remembers more than the deformation.
+    pub fn memory(&self) -> bool {
+        self.laws.contains(&Law::Maxwell)
+    }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {
         let all = [
             ("line", self.dimension == 1),
             ("plane", self.dimension == 2),
             ("solid", self.dimension == 3),
+            ("total_lagrangian", self.kind == Kind::TotalLagrangian),
+            ("hourglass", self.hourglass),
+            ("memory", self.memory()),
             ("shear", self.shear),
             ("many_bodies", self.many_bodies),
             ("coupling", self.coupling),
@@ -104,6 +117,8 @@ pub struct Params<R> {
     pub reach: R,
     /// Displacement after which the list must be built anew.
     pub slack: R,
+    /// Strength of the hourglass energy, over Young's modulus.
+    pub hourglass: R,
     pub alpha: R,
     pub beta: R,
     pub softening: R,
@@ -121,10 +136,16 @@ pub struct Params<R> {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Body<R> {
+    /// Number of the material's law.
+    pub law: u32,
+    pub padding: u32,
     /// Density when unstressed.
     pub density: R,
     pub bulk_modulus: R,
     pub shear_modulus: R,
+    pub youngs_modulus: R,
+    /// Rate at which a Maxwell body relaxes, shear modulus over viscosity; 0 for all others.
+    pub relaxation: R,
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,

@@ -2,7 +2,7 @@
 
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
-use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use crate::state::Method;
 
 fn call(pass: Pass) -> Call {
@@ -10,14 +10,15 @@ fn call(pass: Pass) -> Call {
 }
 
 /// Sorts particles into cells. Does nothing while the present list holds.
-fn sort(calls: &mut Vec<Call>) {
-    calls.extend([Pass::BinCells, Pass::ScanCells, Pass::FillCells, Pass::SortCells].map(call));
+fn sort(reference: bool, calls: &mut Vec<Call>) {
+    let passes = [Pass::BinCells, Pass::ScanCells, Pass::FillCells, Pass::SortCells];
+    calls.extend(passes.map(|pass| Call { pass, stage: Stage { reference, ..Stage::default() } }));
 }
 
 /// Lists neighbours from cells. Does nothing while the present list holds.
-fn list(calls: &mut Vec<Call>) {
-    sort(calls);
-    calls.push(call(Pass::FindNeighbors));
+fn list(reference: bool, calls: &mut Vec<Call>) {
+    sort(reference, calls);
+    calls.push(Call { pass: Pass::FindNeighbors, stage: Stage { reference, ..Stage::default() } });
 }
 
 /// A fluid whose density is summed has no stress to carry from step to step.
@@ -27,6 +28,10 @@ fn stress_evolves(method: &Method) -> bool {
 
 /// From state to acceleration.
 fn force(method: &Method, calls: &mut Vec<Call>) {
+    if method.kind == Kind::TotalLagrangian {
+        calls.extend([Pass::Deform, Pass::BondForce].map(call));
+        return;
+    }
     if method.density == Density::Summation {
         calls.push(call(Pass::SumDensity));
     }
@@ -36,12 +41,30 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
     calls.extend([Pass::SpecificStress, Pass::Force].map(call));
 }
 
-/// Passes that begin a segment: particles into cell order, a fresh list.
-pub fn begin_segment() -> Vec<Call> {
-    let mut calls = Vec::new();
-    sort(&mut calls);
+/// Particles into cell order, a fresh list.
+fn order(reference: bool, calls: &mut Vec<Call>) {
+    sort(reference, calls);
     calls.push(call(Pass::Reorder));
-    list(&mut calls);
+    list(reference, calls);
+}
+
+/// Passes that follow once on a state that is new to the backend, at the start of a run or where one resumes:
+/// what the reference configuration fixes.
+pub fn prepare(method: &Method) -> Vec<Call> {
+    let mut calls = Vec::new();
+    if method.kind == Kind::TotalLagrangian {
+        order(true, &mut calls);
+        calls.push(call(Pass::CorrectReference));
+    }
+    calls
+}
+
+/// Passes that begin a segment.
+pub fn begin_segment(method: &Method) -> Vec<Call> {
+    let mut calls = Vec::new();
+    if method.kind == Kind::Eulerian {
+        order(false, &mut calls);
+    }
     calls
 }
 
@@ -59,6 +82,7 @@ pub fn step(method: &Method) -> Vec<Call> {
         Integrator::Rk2 => runge_kutta(method, &HEUN),
         Integrator::SspRk3 => runge_kutta(method, &SHU_OSHER),
         Integrator::Rk4 => runge_kutta(method, &CLASSICAL),
+        Integrator::Pefrl => pefrl(method),
     };
     if method.velocity_filter {
         calls.extend([Pass::SmoothVelocity, Pass::FilterVelocity].map(call));
@@ -72,11 +96,17 @@ pub fn step(method: &Method) -> Vec<Call> {
 fn leapfrog(method: &Method) -> Vec<Call> {
     let at = |pass, time| Call { pass, stage: Stage { time, ..Stage::default() } };
     let mut calls = vec![at(Pass::Kick, 0.5)];
+    if method.kind == Kind::TotalLagrangian {
+        calls.push(drift(1.0));
+        force(method, &mut calls);
+        calls.push(at(Pass::Kick, 1.0));
+        return calls;
+    }
     if method.xsph {
         calls.push(call(Pass::SmoothVelocity));
     }
     calls.push(call(Pass::Drift));
-    list(&mut calls);
+    list(false, &mut calls);
     calls.push(call(Pass::StrainRate));
     if stress_evolves(method) {
         calls.push(call(Pass::Stress));
@@ -87,8 +117,34 @@ fn leapfrog(method: &Method) -> Vec<Call> {
     calls
 }
 
+fn drift(part: f64) -> Call {
+    Call { pass: Pass::Drift, stage: Stage { part, ..Stage::default() } }
+}
+
+/// Coefficients of Omelyan, Mryglod & Folk 2002, equation (20).
+const XI: f64 = 0.178_617_895_844_809_1;
+const LAMBDA: f64 = -0.212_341_831_062_605_4;
+const CHI: f64 = -0.066_264_582_669_818_49;
+
+/// Drift, kick, drift, kick … so that the errors of third order cancel.
+fn pefrl(method: &Method) -> Vec<Call> {
+    let drifts = [XI, CHI, 1.0 - 2.0 * (CHI + XI), CHI, XI];
+    let kicks = [0.5 - LAMBDA, LAMBDA, LAMBDA, 0.5 - LAMBDA];
+    let mut calls = Vec::new();
+    let mut time = 0.0;
+    for (k, &part) in drifts.iter().enumerate() {
+        calls.push(drift(part));
+        time += part;
+        if let Some(&part) = kicks.get(k) {
+            force(method, &mut calls);
+            calls.push(Call { pass: Pass::Kick, stage: Stage { time, part, ..Stage::default() } });
+        }
+    }
+    calls
+}
+
 const fn stage(weight: f64, of_sum: f64, of_rate: f64, time: f64) -> Stage {
-    Stage { time, weight, of_sum, of_rate, first: false, last: false }
+    Stage { time, weight, of_sum, of_rate, first: false, last: false, part: 0.5, reference: false }
 }
 
 const HEUN: [Stage; 2] = [stage(0.5, 0.0, 1.0, 1.0), stage(0.5, 1.0, 0.0, 1.0)];
@@ -102,11 +158,16 @@ const CLASSICAL: [Stage; 4] = [
 ];
 
 fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
+    let eulerian = method.kind == Kind::Eulerian;
     let mut calls = Vec::new();
-    list(&mut calls);
+    if eulerian {
+        list(false, &mut calls);
+    }
     for (k, &stage) in stages.iter().enumerate() {
-        calls.push(call(Pass::StrainRate));
-        if stress_evolves(method) {
+        if eulerian {
+            calls.push(call(Pass::StrainRate));
+        }
+        if eulerian && stress_evolves(method) {
             calls.push(call(Pass::StressRate));
         }
         if method.xsph {
@@ -122,28 +183,34 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
 /// Fields that the passes of this method read or write, and no others.
 pub fn fields(method: &Method) -> Vec<Field> {
     use Field::*;
-    let leapfrog = method.integrator == Integrator::Leapfrog;
+    let staged = !matches!(method.integrator, Integrator::Leapfrog | Integrator::Pefrl);
+    let eulerian = method.kind == Kind::Eulerian;
     let adjoint = method.gradient == Gradient::Adjoint;
-    let continuity = method.density == Density::Continuity;
+    let continuity = eulerian && method.density == Density::Continuity;
+    let shear = eulerian && method.shear;
     let wanted = [
         (true, &[Number, ReferencePosition, ReferenceVolume, Displacement, Velocity, Acceleration][..]),
-        (true, &[VolumetricStrain, VelocityGradient, ListedDisplacement, Cell, NeighborCount]),
+        (true, &[Cell, NeighborCount]),
+        (eulerian, &[VolumetricStrain, VelocityGradient, ListedDisplacement]),
+        (!eulerian, &[DisplacementGradient, BondStress]),
+        (!eulerian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
+        (method.memory(), &[ViscousStrain]),
         (method.many_bodies, &[Body]),
         (method.constraints, &[Field::Constraint]),
         (method.compensated, &[DisplacementCarry, VelocityCarry]),
-        (method.shear, &[DeviatoricStress]),
+        (shear, &[DeviatoricStress]),
         (method.internal_energy, &[InternalEnergy, InternalPower]),
         (method.dissipated_energy, &[DissipatedEnergy, DissipatedPower]),
         (method.xsph || method.velocity_filter, &[SmoothedVelocity]),
-        (adjoint, &[Correction, CorrectedStress]),
-        (!adjoint, &[Field::SpecificStress]),
+        (eulerian && adjoint, &[Correction, CorrectedStress]),
+        (eulerian && !adjoint, &[Field::SpecificStress]),
         (method.artificial_stress == Some(ArtificialForm::Scalar), &[ArtificialPressure]),
         (method.artificial_stress == Some(ArtificialForm::Principal), &[Field::ArtificialStress]),
-        (!leapfrog, &[DisplacementStart, VelocityStart, DisplacementSum, VelocitySum]),
-        (!leapfrog && continuity, &[VolumetricStrainRate, VolumetricStrainStart, VolumetricStrainSum]),
-        (!leapfrog && method.shear, &[DeviatoricStressRate, DeviatoricStressStart, DeviatoricStressSum]),
-        (!leapfrog && method.internal_energy, &[InternalEnergyStart, InternalEnergySum]),
-        (!leapfrog && method.dissipated_energy, &[DissipatedEnergyStart, DissipatedEnergySum]),
+        (staged, &[DisplacementStart, VelocityStart, DisplacementSum, VelocitySum]),
+        (staged && continuity, &[VolumetricStrainRate, VolumetricStrainStart, VolumetricStrainSum]),
+        (staged && shear, &[DeviatoricStressRate, DeviatoricStressStart, DeviatoricStressSum]),
+        (staged && method.internal_energy, &[InternalEnergyStart, InternalEnergySum]),
+        (staged && method.dissipated_energy, &[DissipatedEnergyStart, DissipatedEnergySum]),
     ];
     let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).collect();
     list.sort_unstable();
@@ -153,7 +220,7 @@ pub fn fields(method: &Method) -> Vec<Field> {
 /// Every pass that a run of this method dispatches, each once, in order of first use.
 pub fn passes(method: &Method) -> Vec<Pass> {
     let mut list: Vec<Pass> = Vec::new();
-    for call in begin_segment().into_iter().chain(begin_run(method)).chain(step(method)) {
+    for call in prepare(method).into_iter().chain(begin_segment(method)).chain(begin_run(method)).chain(step(method)) {
         if !list.contains(&call.pass) {
             list.push(call.pass);
         }

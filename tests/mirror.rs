@@ -37,7 +37,7 @@ fn params_mirror_the_shader_s() {
     assert_mirrors!(Params:
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
         artificial_exponent, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
-        body_force_x, body_force_y, body_force_z, normalisation, reach, slack, alpha, beta, softening, smoothing_weight,
+        body_force_x, body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
         artificial_epsilon, artificial_weight, cfl, fixed_step,
     );
     // Bound alone, in a buffer rounded up to the alignment of a vec4.
@@ -46,7 +46,8 @@ fn params_mirror_the_shader_s() {
 
 #[test]
 fn bodies_mirror_the_shader_s() {
-    assert_mirrors!(Body: density, bulk_modulus, shear_modulus, sound_speed, smoothing_length);
+    assert_mirrors!(Body:
+        law, padding, density, bulk_modulus, shear_modulus, youngs_modulus, relaxation, sound_speed, smoothing_length);
     assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
 }
 

@@ -38,7 +38,7 @@ fn center_of(a: u32) -> Center {
 
 fn pair_of(center: Center, entry: u32) -> Pair {
     let b = entry & NEIGHBOR_MASK;
-    let x = separation(center.reference, center.displacement, entry);
+    let x = separation(center.reference, center.displacement, entry, displacement[b]);
 #if many_bodies
     let h = 0.5 * (center.h + body_of(b).smoothing_length);
 #else

@@ -31,6 +31,7 @@ struct Params {
     normalisation: real,
     reach: real,
     slack: real,
+    hourglass: real,
     alpha: real,
     beta: real,
     softening: real,
@@ -42,9 +43,13 @@ struct Params {
 }
 
 struct Body {
+    law: u32,
+    padding: u32,
     density: real,
     bulk_modulus: real,
     shear_modulus: real,
+    youngs_modulus: real,
+    relaxation: real,
     sound_speed: real,
     smoothing_length: real,
 }

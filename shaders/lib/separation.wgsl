@@ -1,4 +1,4 @@
-// x_a - x_b. The pass declares `reference_position` and `displacement`. Twin: separation in src/pair.rs
+// x_a - x_b. The pass declares `reference_position`. Twin: separation in src/pair.rs
 #import params
 #if symmetry
 #import mirror
@@ -15,11 +15,11 @@ fn nearest_image(x: Vec) -> Vec {
 #endif
 
 // From reference positions and displacements apart, so that f32 keeps the small difference. The first two
-// arguments are those of particle a, which a loop over neighbours loads once.
-fn separation(reference_a: Vec, displacement_a: Vec, entry: u32) -> Vec {
+// arguments are those of particle a, which a loop over neighbours loads once; the last is the neighbour's.
+fn separation(reference_a: Vec, displacement_a: Vec, entry: u32, displacement_b: Vec) -> Vec {
     let b = entry & NEIGHBOR_MASK;
     var reference = reference_position[b];
-    var shift = displacement[b];
+    var shift = displacement_b;
 #if symmetry
     let image = entry >> NEIGHBOR_BITS;
     if image != 0u {

@@ -8,13 +8,16 @@
 @group(0) @binding(_) var<storage, read_write> cell: array<u32>;
 @group(0) @binding(_) var<storage, read_write> cell_count: array<atomic<u32>>;
 
+// Particles are sorted where they are in the reference configuration.
+override stage_reference: bool;
+
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
     let i = index_of(invocation);
     if i >= params.count || clock.running == 0u || clock.rebuild == 0u {
         return;
     }
-    let place = cell_of(reference_position[i] + displacement[i]);
+    let place = cell_of(reference_position[i] + select(displacement[i], Vec(), stage_reference));
     let index = (place.z * params.cells_y + place.y) * params.cells_x + place.x;
     cell[i] = index;
     atomicAdd(&cell_count[index], 1u);

@@ -7,12 +7,18 @@
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
+#if !total_lagrangian
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> listed_displacement: array<Vec>;
+#endif
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+#if total_lagrangian
+@group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
+#else
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
+#endif
 
 const REDUCTION_BLOCK: u32 = 256u;
 
@@ -55,19 +61,31 @@ fn blocks(invocation: Invocation) {
 fn bound_of(a: u32) -> vec4<real> {
     let own = body_of(a);
     let h = own.smoothing_length;
+#if total_lagrangian
+    let compression: real = 0.0;
+#else
     let compression = abs(trace(velocity_gradient[a]));
+#endif
     let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
     let pull = inner(acceleration[a], acceleration[a]);
     let rate = max(signal / h, sqrt(sqrt(pull) / h));
+#if total_lagrangian
+    let moved: real = 0.0;
+#else
     let shift = displacement[a] - listed_displacement[a];
     let moved = inner(shift, shift);
+#endif
     let speed = inner(velocity[a], velocity[a]);
     // By the bits: a compiler may take it that no number is infinite or undefined.
     let exponent = bitcast<u32>(pull + moved + speed + compression) & 0x7f800000u;
     if exponent == 0x7f800000u {
         return vec4<real>(0.0, 0.0, 0.0, real(NOT_FINITE));
     }
+#if total_lagrangian
+    let inverted = determinant_mat(mat_identity() + displacement_gradient[a]) <= 0.0;
+#else
     let inverted = 1.0 + volumetric_strain[a] <= 0.0;
+#endif
     return vec4<real>(rate, moved, speed, select(0.0, real(INVERTED), inverted));
 }
 
@@ -123,7 +141,11 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
         step = left * 0.5;
     }
     next.step = step;
+#if total_lagrangian
+    next.rebuild = 0u;
+#else
     let ahead = sqrt(bound.y) + sqrt(bound.z) * step;
     next.rebuild = u32(ahead > params.slack);
+#endif
     return next;
 }

@@ -1,4 +1,4 @@
-// u += (step/2) v, or the smoothed velocity for XSPH. Twin: src/pass/drift.rs
+// u += part step v, or the smoothed velocity for XSPH. Twin: src/pass/drift.rs
 #import invocation
 #import params
 #import moving_velocity
@@ -21,13 +21,16 @@
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 #endif
 
+// Part of the step that the drift takes.
+override stage_part: real;
+
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
     let a = index_of(invocation);
     if a >= params.count || clock.running == 0u {
         return;
     }
-    let increment = moving_velocity(a) * (0.5 * clock.step);
+    let increment = moving_velocity(a) * (stage_part * clock.step);
 #if compensated
     let result = compensated_add(displacement[a], displacement_carry[a], increment);
     displacement[a] = result.sum;

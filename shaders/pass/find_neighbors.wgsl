@@ -12,9 +12,14 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(_) var<storage, read> cell_particles: array<u32>;
+#if !total_lagrangian
 @group(0) @binding(_) var<storage, read_write> listed_displacement: array<Vec>;
+#endif
 @group(0) @binding(_) var<storage, read_write> neighbors: array<u32>;
 @group(0) @binding(_) var<storage, read_write> neighbor_count: array<u32>;
+
+// Particles are listed where they are in the reference configuration.
+override stage_reference: bool;
 
 // Found more than the list can hold.
 const TOO_MANY: u32 = 0xffffffffu;
@@ -39,7 +44,9 @@ fn main(invocation: Invocation) {
     }
     let a = params.first + row;
     let search = search_of(a, row);
+#if !total_lagrangian
     listed_displacement[a] = search.displacement;
+#endif
     let found = list_one(search);
     if found == TOO_MANY {
         neighbor_count[a] = 0u;
@@ -49,12 +56,16 @@ fn main(invocation: Invocation) {
     }
 }
 
+fn shift_of(b: u32) -> Vec {
+    return select(displacement[b], Vec(), stage_reference);
+}
+
 fn search_of(a: u32, row: u32) -> Search {
     var search: Search;
     search.a = a;
     search.row = row;
     search.reference = reference_position[a];
-    search.displacement = displacement[a];
+    search.displacement = shift_of(a);
 #if coupling
     search.body = body_index(a);
 #endif
@@ -134,7 +145,7 @@ fn visit(search: Search, first: u32, end: u32, found_before: u32) -> u32 {
             continue;
         }
         let entry = b | (search.image << NEIGHBOR_BITS);
-        let apart = separation(search.reference, search.displacement, entry);
+        let apart = separation(search.reference, search.displacement, entry, shift_of(b));
         if inner(apart, apart) >= params.reach * params.reach {
             continue;
         }

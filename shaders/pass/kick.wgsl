@@ -1,4 +1,4 @@
-// v += (step/2) a, then the boundary conditions. Twin: src/pass/kick.rs
+// v += part step a, then the boundary conditions. Twin: src/pass/kick.rs
 #import invocation
 #import course
 #if compensated
@@ -25,6 +25,8 @@
 
 // When prescribed velocities are taken, as a fraction of the step.
 override stage_time: real;
+// Part of the step that the kick takes.
+override stage_part: real;
 
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
@@ -32,9 +34,9 @@ fn main(invocation: Invocation) {
     if a >= params.count || clock.running == 0u {
         return;
     }
-    let half = 0.5 * clock.step;
+    let part = stage_part * clock.step;
     let time = clock.start + clock.elapsed + stage_time * clock.step;
-    let increment = acceleration_at(a, time) * half;
+    let increment = acceleration_at(a, time) * part;
 #if internal_energy
     let before = velocity[a];
 #endif
@@ -51,9 +53,9 @@ fn main(invocation: Invocation) {
     // velocities before and after.
     let later = select(0.5, 1.5, stage_time < 1.0);
     let change = (velocity[a] - before) * later;
-    internal_energy[a] += (internal_power[a] - inner(acceleration[a], change)) * half;
+    internal_energy[a] += (internal_power[a] - inner(acceleration[a], change)) * part;
 #endif
 #if dissipated_energy
-    dissipated_energy[a] += dissipated_power[a] * half;
+    dissipated_energy[a] += dissipated_power[a] * part;
 #endif
 }

@@ -12,12 +12,14 @@ use std::time::{Duration, Instant};
 /// Steps a host state.
 pub struct Cpu<S: Space> {
     pub state: State<S>,
+    /// What the reference configuration fixes has been made.
+    prepared: bool,
     step: Vec<Call>,
 }
 
 impl<S: Space> Cpu<S> {
     pub fn new(state: State<S>) -> Self {
-        Self { step: step::step(&state.method), state }
+        Self { step: step::step(&state.method), prepared: false, state }
     }
 
     fn run(&mut self, calls: &[Call]) {
@@ -56,9 +58,13 @@ impl<S: Space> Backend for Cpu<S> {
             fault: 0,
             ..self.state.clock
         };
-        self.run(&step::begin_segment());
+        let method = self.state.method.clone();
+        if !std::mem::replace(&mut self.prepared, true) {
+            self.run(&step::prepare(&method));
+        }
+        self.run(&step::begin_segment(&method));
         if first {
-            self.run(&step::begin_run(&self.state.method.clone()));
+            self.run(&step::begin_run(&method));
         }
         self.run(&[Call { pass: Pass::BoundTimeStep, stage: Stage::default() }]);
         Ok(())

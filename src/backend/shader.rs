@@ -23,9 +23,9 @@ macro_rules! library {
 }
 
 library! {
-    lib: body, body_index, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
+    lib: body, body_index, bond, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
         moving_velocity, pair, pair_velocity, params, real, separation, tensor_1d, tensor_2d, tensor_3d, volume;
-    material: elastic;
+    material: elastic, laws, st_venant_kirchhoff;
 }
 
 /// Every word that `#if` may ask for.
@@ -33,6 +33,9 @@ const FLAGS: &[&str] = &[
     "line",
     "plane",
     "solid",
+    "total_lagrangian",
+    "hourglass",
+    "memory",
     "shear",
     "many_bodies",
     "coupling",

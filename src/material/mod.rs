@@ -1,9 +1,46 @@
-//! What a material answers to deformation. Twin: shaders/material/elastic.wgsl
+//! What a material answers to deformation: one file a law, and here the list of them.
 //!
-//! Today: the linear equation of state with the bulk modulus, and the hypoelastic deviator; further laws
-//! join as pairs of files.
+//! In the Eulerian formulation: the linear equation of state with the bulk modulus, and the hypoelastic deviator.
+//! In the Total Lagrangian: first Piola-Kirchhoff stress from H = F - 1, written for small H in f32.
+//! Twin: shaders/material/
 
+mod st_venant_kirchhoff;
+
+use crate::state::Body;
 use crate::tensor::{Real, Space};
+use serde::{Deserialize, Serialize};
+
+/// Names the laws; the number is what [`Body::law`] holds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// Linear equation of state and hypoelastic deviator: Eulerian only.
+    #[default]
+    Elastic,
+    /// Linear equation of state alone: Eulerian only.
+    Fluid,
+    /// Stress linear in Green's strain.
+    StVenantKirchhoff,
+    /// Deviator of Simo, volumetric part of Hartmann & Neff 2003: Shutov & Klyuchantsev 2019 (11), (12).
+    NeoHookean,
+    /// Maxwell body of Simo & Miehe 1992: Shutov & Klyuchantsev 2019 (14) to (16).
+    Maxwell,
+}
+
+impl Law {
+    /// Gives stress from the deformation gradient.
+    pub fn is_finite_strain(self) -> bool {
+        !matches!(self, Law::Elastic | Law::Fluid)
+    }
+}
+
+/// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the viscous strain C_i - 1 of a law that
+/// remembers.
+#[inline(always)]
+pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Mat {
+    let _ = memory;
+    st_venant_kirchhoff::first_piola::<S>(body, h)
+}
 
 /// P = K (rho/rho_0 - 1) = -K e/(1 + e), e the volumetric strain. With the bulk modulus K, not rho c^2 of
 /// p-waves: that is 62 % too stiff at a Poisson ratio of 0.3.

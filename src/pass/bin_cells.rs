@@ -24,14 +24,20 @@ pub fn cell_of<S: Space>(params: &Params<S::Real>, x: S::Vec) -> [u32; 3] {
     cell
 }
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+/// Where a particle is, or was in the reference configuration.
+#[inline(always)]
+pub fn place<S: Space>(state: &State<S>, i: usize, stage: Stage) -> S::Vec {
+    if stage.reference { state.particles.reference_position[i] } else { state.position(i) }
+}
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
     let params = state.params;
     let mut cells = std::mem::take(&mut state.particles.cell);
     super::write(&mut cells, |i, slot| {
-        let [x, y, z] = cell_of::<S>(&params, state.position(i));
+        let [x, y, z] = cell_of::<S>(&params, place(state, i, stage));
         *slot = (z * params.cells_y + y) * params.cells_x + x;
     });
     for &cell in &cells {

@@ -4,6 +4,7 @@
 //! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 
 use super::Stage;
+use crate::scene::file::Kind;
 use crate::state::{Fault, REDUCTION_BLOCK, State};
 use crate::tensor::{Real, Space};
 
@@ -32,16 +33,22 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let (particles, params, body) = (&state.particles, &state.params, state.body(a));
     let (h, part) = (body.smoothing_length, S::Real::of(0.6));
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
-    let compression = S::trace(particles.velocity_gradient[a]).abs();
+    let lagrangian = state.method.kind == Kind::TotalLagrangian;
+    let compression = if lagrangian { zero } else { S::trace(particles.velocity_gradient[a]).abs() };
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
     let pull = S::inner(particles.acceleration[a], particles.acceleration[a]);
     let rate = (signal / h).max((pull.sqrt() / h).sqrt());
-    let moved = particles.displacement[a] - particles.listed_displacement[a];
+    let moved = particles.listed_displacement.get(a).map_or(S::Vec::default(), |listed| particles.displacement[a] - *listed);
     let (moved, speed) = (S::inner(moved, moved), S::inner(particles.velocity[a], particles.velocity[a]));
+    let volume = if lagrangian {
+        S::determinant(S::mat_identity() + particles.displacement_gradient[a])
+    } else {
+        one + particles.volumetric_strain[a]
+    };
     let finite = (pull + moved + speed + compression).is_finite();
     let fault = if !finite {
         S::Real::of(f64::from(Fault::NotFinite as u32))
-    } else if one + particles.volumetric_strain[a] <= zero {
+    } else if volume <= zero {
         S::Real::of(f64::from(Fault::Inverted as u32))
     } else {
         zero
@@ -50,6 +57,7 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
 }
 
 fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
+    let listed_once = state.particles.listed_displacement.is_empty();
     let (params, clock) = (&state.params, &mut state.clock);
     // The first call of a segment finds no step behind it.
     if clock.step > S::Real::of(0.0) {
@@ -83,5 +91,5 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
         step
     };
     let ahead = bound[1].sqrt() + bound[2].sqrt() * clock.step;
-    clock.rebuild = u32::from(ahead > params.slack);
+    clock.rebuild = u32::from(!listed_once && ahead > params.slack);
 }

@@ -1,23 +1,23 @@
-//! u += (step/2) v, or the smoothed velocity for XSPH. Twin: shaders/pass/drift.wgsl
+//! u += part step v, or the smoothed velocity for XSPH. Twin: shaders/pass/drift.wgsl
 
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let half = S::Real::of(0.5) * state.clock.step;
+    let part = S::Real::of(stage.part) * state.clock.step;
     let mut displacement = std::mem::take(&mut state.particles.displacement);
     if state.method.compensated {
         let mut carry = std::mem::take(&mut state.particles.displacement_carry);
         for (a, (u, c)) in displacement.iter_mut().zip(&mut carry).enumerate() {
-            compensated_add::<S>(u, c, moving_velocity(state, a) * half);
+            compensated_add::<S>(u, c, moving_velocity(state, a) * part);
         }
         state.particles.displacement_carry = carry;
     } else {
-        super::write(&mut displacement, |a, u| *u += moving_velocity(state, a) * half);
+        super::write(&mut displacement, |a, u| *u += moving_velocity(state, a) * part);
     }
     state.particles.displacement = displacement;
 }

@@ -2,47 +2,42 @@
 //! Twin: shaders/pass/find_neighbors.wgsl
 
 use super::Stage;
-use super::bin_cells::cell_of;
-use crate::pair::{mirror_point, separation};
+use super::bin_cells::{cell_of, place};
+use crate::pair::{mirror_point, reference_separation, separation};
 use crate::state::{Fault, NEIGHBOR_BITS, State};
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
     let capacity = state.params.list_capacity as usize;
     let mut neighbors = std::mem::take(&mut state.neighbors);
     let mut counts = std::mem::take(&mut state.particles.neighbor_count);
-    let mut listed = std::mem::take(&mut state.particles.listed_displacement);
     let fault = AtomicU32::new(0);
-    neighbors
-        .par_chunks_mut(capacity)
-        .zip(counts.par_iter_mut())
-        .zip(listed.par_iter_mut())
-        .enumerate()
-        .with_min_len(64)
-        .for_each(|(a, ((row, count), place))| {
-            *place = state.particles.displacement[a];
-            *count = list_one(state, a, row).unwrap_or_else(|| {
-                fault.store(Fault::ListFull as u32, Ordering::Relaxed);
-                0
-            });
+    neighbors.par_chunks_mut(capacity).zip(counts.par_iter_mut()).enumerate().with_min_len(64).for_each(|(a, (row, count))| {
+        *count = list_one(state, a, row, stage).unwrap_or_else(|| {
+            fault.store(Fault::ListFull as u32, Ordering::Relaxed);
+            0
         });
+    });
     state.neighbors = neighbors;
     state.particles.neighbor_count = counts;
-    state.particles.listed_displacement = listed;
+    if !stage.reference {
+        let particles = &mut state.particles;
+        particles.listed_displacement.clone_from(&particles.displacement);
+    }
     if fault.into_inner() != 0 {
         state.clock.fault = Fault::ListFull as u32;
     }
 }
 
 /// Fills one particle's row; None if it is too short.
-fn list_one<S: Space>(state: &State<S>, a: usize, row: &mut [u32]) -> Option<u32> {
+fn list_one<S: Space>(state: &State<S>, a: usize, row: &mut [u32], stage: Stage) -> Option<u32> {
     let params = &state.params;
-    let x = state.position(a);
+    let x = place(state, a, stage);
     let mut found = 0;
     for image in 0..1u32 << params.plane_count {
         let center = mirror_point::<S>(params, image, x);
@@ -59,7 +54,7 @@ fn list_one<S: Space>(state: &State<S>, a: usize, row: &mut [u32]) -> Option<u32
             if image == 0 && b as usize == a {
                 return Some(());
             }
-            let apart = separation(state, a, entry);
+            let apart = if stage.reference { reference_separation(state, a, entry) } else { separation(state, a, entry) };
             if S::inner(apart, apart) >= params.reach * params.reach {
                 return Some(());
             }

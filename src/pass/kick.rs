@@ -1,4 +1,4 @@
-//! v += (step/2) a, then the boundary conditions. Twin: shaders/pass/kick.wgsl
+//! v += part step a, then the boundary conditions. Twin: shaders/pass/kick.wgsl
 
 use super::{Stage, compensated_add};
 use crate::state::State;
@@ -8,25 +8,25 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let half = S::Real::of(0.5) * state.clock.step;
+    let part = S::Real::of(stage.part) * state.clock.step;
     let time = state.clock.start + state.clock.elapsed + S::Real::of(stage.time) * state.clock.step;
     let mut velocity = std::mem::take(&mut state.particles.velocity);
     let before = if state.method.internal_energy { velocity.clone() } else { Vec::new() };
     if state.method.compensated {
         let mut carry = std::mem::take(&mut state.particles.velocity_carry);
         for (a, (v, c)) in velocity.iter_mut().zip(&mut carry).enumerate() {
-            compensated_add::<S>(v, c, acceleration(state, a, time) * half);
+            compensated_add::<S>(v, c, acceleration(state, a, time) * part);
             *v = prescribe(state, a, *v, time);
         }
         state.particles.velocity_carry = carry;
     } else {
         super::write(&mut velocity, |a, v| {
-            *v += acceleration(state, a, time) * half;
+            *v += acceleration(state, a, time) * part;
             *v = prescribe(state, a, *v, time);
         });
     }
     state.particles.velocity = velocity;
-    add_energy(state, half, &before, stage);
+    add_energy(state, part, &before, stage);
 }
 
 /// Acceleration by neighbours, by the body force and by a prescribed force.
@@ -74,15 +74,15 @@ pub fn prescribe<S: Space>(state: &State<S>, a: usize, mut v: S::Vec, time: S::R
 /// The force found its power with the velocity of the half step, while the kick does its work at the mean of
 /// the velocities before and after: half a kick later in the second half, one and a half in the first. With
 /// the difference added, kinetic and internal energy sum to a constant.
-fn add_energy<S: Space>(state: &mut State<S>, half: S::Real, before: &[S::Vec], stage: Stage) {
+fn add_energy<S: Space>(state: &mut State<S>, part: S::Real, before: &[S::Vec], stage: Stage) {
     let later = S::Real::of(kicks_later(stage));
     let particles = &mut state.particles;
     for (a, energy) in particles.internal_energy.iter_mut().enumerate() {
         let change = (particles.velocity[a] - before[a]) * later;
-        *energy += (particles.internal_power[a] - S::inner(particles.acceleration[a], change)) * half;
+        *energy += (particles.internal_power[a] - S::inner(particles.acceleration[a], change)) * part;
     }
     for (energy, power) in particles.dissipated_energy.iter_mut().zip(&particles.dissipated_power) {
-        *energy += *power * half;
+        *energy += *power * part;
     }
 }
 

@@ -4,8 +4,11 @@
 //! machinery: the loop over i is [`write`], which runs on all cores.
 
 mod bin_cells;
+mod bond_force;
 mod bound_time_step;
 mod correct_gradient;
+mod correct_reference;
+mod deform;
 mod drift;
 mod fill_cells;
 mod filter_velocity;
@@ -52,7 +55,7 @@ pub struct Entry {
 }
 
 /// Numbers that tell calls of the same pass in one step apart; `override` constants of the shader.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
     /// Time at which prescribed velocities are taken, as a fraction of the step.
     pub time: f64,
@@ -63,11 +66,21 @@ pub struct Stage {
     pub of_rate: f64,
     pub first: bool,
     pub last: bool,
+    /// Part of the step that a kick or a drift takes.
+    pub part: f64,
+    /// Particles are sorted and listed where they are in the reference configuration.
+    pub reference: bool,
+}
+
+impl Default for Stage {
+    fn default() -> Self {
+        Self { time: 0.0, weight: 0.0, of_sum: 0.0, of_rate: 0.0, first: false, last: false, part: 0.5, reference: false }
+    }
 }
 
 impl Stage {
     /// Name and value of every override constant; a shader takes those that it declares.
-    pub fn constants(&self) -> [(&'static str, f64); 6] {
+    pub fn constants(&self) -> [(&'static str, f64); 8] {
         [
             ("stage_time", self.time),
             ("stage_weight", self.weight),
@@ -75,6 +88,8 @@ impl Stage {
             ("stage_of_rate", self.of_rate),
             ("stage_first", f64::from(u8::from(self.first))),
             ("stage_last", f64::from(u8::from(self.last))),
+            ("stage_part", self.part),
+            ("stage_reference", f64::from(u8::from(self.reference))),
         ]
     }
 }
@@ -134,19 +149,23 @@ passes! {
     correct_gradient: CorrectGradient, [main: Listed], "inverse of the first moment of the kernel gradient";
     specific_stress: SpecificStress, [main: Particles], "stress in the form that the pair force sums, and the artificial stress";
     force: Force, [main: Listed], "acceleration, Fuller (2.59) with the sign of the viscosity mended";
+    correct_reference: CorrectReference, [main: Listed], "inverse of the first moment of the kernel gradient in the reference configuration";
+    deform: Deform, [main: Listed], "deformation gradient, stress, and what the bonds carry of it";
+    bond_force: BondForce, [main: Listed], "acceleration by the bonds of the reference configuration";
     smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";
     filter_velocity: FilterVelocity, [main: Particles], "puts the smoothed velocity in the velocity's place";
-    kick: Kick, [main: Particles], "advances the velocity by half a step";
-    drift: Drift, [main: Particles], "advances the displacement by half a step";
+    kick: Kick, [main: Particles], "advances the velocity by a part of the step";
+    drift: Drift, [main: Particles], "advances the displacement by a part of the step";
     runge_kutta: RungeKutta, [main: Particles], "adds a stage's rates and sets the next stage's state";
     bound_time_step: BoundTimeStep, [blocks: ReductionBlocks, advance: One], "advances the clock; finds the next step, whether the list still holds, and faults";
 }
 
+/// Particles of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
+const GRAIN: usize = 128;
+
 /// Sets every element of a column from its index and the state, on all cores. The column must have been
 /// taken out of the state: a pass reads its neighbours' values of other columns, never of the one it writes.
 pub(crate) fn write<T: Send>(column: &mut [T], value: impl Fn(usize, &mut T) + Sync) {
-    // Small enough to balance two cores on a thousand particles, large enough to hide the scheduling.
-    const GRAIN: usize = 128;
     column.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(i, slot)| value(i, slot));
 }
 

@@ -5,6 +5,7 @@
 
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
+use crate::material::Law;
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -134,32 +135,28 @@ pub struct Kick {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     #[serde(default)]
-    pub law: LawWord,
+    pub law: Law,
     pub density: f64,
     pub youngs_modulus: Option<f64>,
     pub poisson_ratio: Option<f64>,
     pub bulk_modulus: Option<f64>,
     pub shear_modulus: Option<f64>,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LawWord {
-    /// Linear equation of state and hypoelastic deviator.
-    #[default]
-    Elastic,
-    /// Linear equation of state alone.
-    Fluid,
+    /// Newtonian viscosity of a Maxwell body: stress times time.
+    pub viscosity: Option<f64>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Formulation {
+    pub kind: Kind,
     pub smoothing: Smoothing,
     /// h over the particle spacing.
     pub smoothing_length: f64,
     pub density: Density,
-    pub gradient: Gradient,
+    /// Plain in the Eulerian formulation unless given, adjoint in the Total Lagrangian.
+    pub gradient: Option<Gradient>,
+    /// Strength of the hourglass energy of the Total Lagrangian formulation, over Young's modulus; 0.5 unless given.
+    pub hourglass: Option<f64>,
     pub viscosity: Option<Viscosity>,
     /// Weight of Monaghan's XSPH: particles move with the smoothed velocity.
     pub xsph: Option<f64>,
@@ -180,10 +177,12 @@ pub struct Formulation {
 impl Default for Formulation {
     fn default() -> Self {
         Self {
+            kind: Kind::default(),
             smoothing: Smoothing::CubicSpline,
             smoothing_length: 1.3,
             density: Density::default(),
-            gradient: Gradient::default(),
+            gradient: None,
+            hourglass: None,
             viscosity: None,
             xsph: None,
             velocity_filter: None,
@@ -193,6 +192,27 @@ impl Default for Formulation {
             list_margin: None,
             list_capacity: None,
         }
+    }
+}
+
+/// In which configuration the sums run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Neighbours and kernels where the particles are now; stress from rates.
+    #[default]
+    Eulerian,
+    /// Neighbours and kernels of the reference configuration, found once; stress from the deformation gradient.
+    TotalLagrangian,
+}
+
+impl Formulation {
+    pub fn gradient(&self) -> Gradient {
+        let usual = if self.kind == Kind::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
+        self.gradient.unwrap_or(usual)
+    }
+    pub fn hourglass(&self) -> f64 {
+        self.hourglass.unwrap_or(if self.kind == Kind::TotalLagrangian { 0.5 } else { 0.0 })
     }
 }
 
@@ -356,6 +376,8 @@ pub enum Integrator {
     SspRk3,
     /// The classical fourth order.
     Rk4,
+    /// Omelyan, Mryglod & Folk 2002: symplectic, fourth order, four forces a step.
+    Pefrl,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

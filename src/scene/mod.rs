@@ -12,6 +12,7 @@ pub mod shape;
 mod state;
 mod words;
 
+use crate::material::Law;
 use crate::state::Method;
 use glam::DVec3;
 use std::path::Path;
@@ -46,8 +47,11 @@ pub struct Body {
     pub spacing: f64,
     pub smoothing_length: f64,
     pub density: f64,
+    pub law: Law,
     pub bulk_modulus: f64,
     pub shear_modulus: f64,
+    /// Shear modulus over viscosity of a Maxwell body, else 0.
+    pub relaxation: f64,
     /// Volume over unstressed volume at the start.
     pub relative_volume: f64,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
@@ -55,6 +59,10 @@ pub struct Body {
 }
 
 impl Body {
+    pub fn youngs_modulus(&self) -> f64 {
+        9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
+    }
+
     /// Speed of longitudinal waves.
     pub fn sound_speed(&self) -> f64 {
         ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()

@@ -1,10 +1,11 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
-use super::file::{ArtificialSpacing, Axis, File, Fixed, LawWord, Motion};
+use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind, Motion};
 use super::packing::fill;
 use super::read::{Read, Source, hint};
 use super::shape::used;
 use super::{Body, Constraint, Particle, Plane, Scene, file};
+use crate::material::Law;
 use crate::state::Method;
 use glam::DVec3;
 
@@ -164,8 +165,10 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
             spacing,
             smoothing_length: file.formulation.smoothing_length * spacing,
             density: material.density,
+            law: material.law,
             bulk_modulus,
             shear_modulus,
+            relaxation: material.viscosity.map_or(0.0, |viscosity| shear_modulus / viscosity),
             relative_volume,
             deviator,
         });
@@ -183,21 +186,25 @@ fn moduli(material: &file::Material) -> Result<(f64, f64), String> {
         if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("needs a positive {what}, found {value}")) }
     };
     positive(material.density, "density")?;
+    match (material.law, material.viscosity) {
+        (Law::Maxwell, Some(viscosity)) => positive(viscosity, "viscosity").map(|_| ())?,
+        (Law::Maxwell, None) => return Err("is a Maxwell body: it needs a viscosity".into()),
+        (_, Some(_)) => return Err("has a viscosity, which only the law `maxwell` takes".into()),
+        (_, None) => {}
+    }
     let given = (material.youngs_modulus, material.poisson_ratio, material.bulk_modulus, material.shear_modulus);
     match (material.law, given) {
-        (LawWord::Elastic, (Some(e), Some(nu), None, None)) => {
+        (Law::Fluid, (None, None, Some(k), None)) => Ok((positive(k, "bulk_modulus")?, 0.0)),
+        (Law::Fluid, _) => Err("is a fluid: it needs bulk_modulus and no other modulus".into()),
+        (_, (Some(e), Some(nu), None, None)) => {
             positive(e, "youngs_modulus")?;
             if !(nu > -1.0 && nu < 0.5) {
                 return Err(format!("needs a poisson_ratio between -1 and 0.5, found {nu}"));
             }
             Ok((e / (3.0 * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu))))
         }
-        (LawWord::Elastic, (None, None, Some(k), Some(mu))) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
-        (LawWord::Elastic, _) => {
-            Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into())
-        }
-        (LawWord::Fluid, (None, None, Some(k), None)) => Ok((positive(k, "bulk_modulus")?, 0.0)),
-        (LawWord::Fluid, _) => Err("is a fluid: it needs bulk_modulus and no other modulus".into()),
+        (_, (None, None, Some(k), Some(mu))) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
+        _ => Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into()),
     }
 }
 
@@ -310,7 +317,10 @@ fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3
 }
 
 fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
-    let mut table = vec![vec![1.0; bodies.len()]; bodies.len()];
+    // Through the reference configuration, bodies have nothing to do with each other.
+    let apart = if file.formulation.kind == Kind::TotalLagrangian { 0.0 } else { 1.0 };
+    let mut table = vec![vec![apart; bodies.len()]; bodies.len()];
+    (0..bodies.len()).for_each(|k| table[k][k] = 1.0);
     for (k, contact) in file.contact.iter().enumerate() {
         let at = k.to_string();
         let path = ["contact", &at, "between"];
@@ -376,13 +386,21 @@ fn method(
     refuse.unless(!f.dissipated_energy || f.viscosity.is_some(), &["formulation", "dissipated_energy"], || {
         "dissipated_energy adds up the heat of viscosity, and this scene names no viscosity".into()
     })?;
+    let lagrangian = f.kind == Kind::TotalLagrangian;
+    lagrangian_only(file, bodies, refuse)?;
+    let mut laws: Vec<Law> = bodies.iter().map(|body| body.law).collect();
+    laws.sort_unstable();
+    laws.dedup();
     let body_force = file.body_force.as_ref().is_some_and(|g| g.iter().any(|&x| x != 0.0));
     Ok(Method {
         dimension: file.dimension,
         smoothing: f.smoothing,
         integrator: file.time.integrator,
         density: f.density,
-        gradient: f.gradient,
+        gradient: f.gradient(),
+        kind: f.kind,
+        laws,
+        hourglass: lagrangian && f.hourglass() > 0.0,
         shear: bodies.iter().any(|b| b.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
         coupling: coupling.iter().flatten().any(|&c| c != 1.0),
@@ -397,6 +415,51 @@ fn method(
         internal_energy: f.internal_energy,
         dissipated_energy: f.dissipated_energy,
         compensated: false,
+    })
+}
+
+/// What belongs to one formulation and not to the other.
+fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), String> {
+    let f = &file.formulation;
+    let lagrangian = f.kind == Kind::TotalLagrangian;
+    for (k, body) in bodies.iter().enumerate() {
+        let at = k.to_string();
+        refuse.unless(body.law.is_finite_strain() == lagrangian, &["body", &at, "material"], || {
+            let words = "`st_venant_kirchhoff`, `neo_hookean` or `maxwell`";
+            if lagrangian {
+                format!("formulation.kind `total_lagrangian` takes a material whose law is {words}")
+            } else {
+                format!("a material whose law is {words} needs formulation.kind `total_lagrangian`")
+            }
+        })?;
+        let typed = &file.body[k];
+        let stressed = typed.relative_volume.is_some() || typed.deviatoric_stress.is_some();
+        refuse.unless(!(lagrangian && stressed), &["body", &at], || {
+            "a Total Lagrangian body starts unstressed: relative_volume and deviatoric_stress do not go with it".into()
+        })?;
+    }
+    let eulerian_words = [
+        ("xsph", f.xsph.is_some()),
+        ("velocity_filter", f.velocity_filter.is_some()),
+        ("artificial_stress", f.artificial_stress.is_some()),
+        ("internal_energy", f.internal_energy),
+        ("density", f.density != Density::Continuity),
+        ("gradient", f.gradient == Some(Gradient::Corrected)),
+    ];
+    for (word, named) in eulerian_words {
+        refuse.unless(!(lagrangian && named), &["formulation", word], || {
+            format!("{word} belongs to the Eulerian formulation, and formulation.kind is `total_lagrangian`")
+        })?;
+    }
+    refuse.unless(lagrangian || f.hourglass.is_none(), &["formulation", "hourglass"], || {
+        "hourglass belongs to formulation.kind `total_lagrangian`".into()
+    })?;
+    refuse.unless(f.hourglass() >= 0.0 && f.hourglass().is_finite(), &["formulation", "hourglass"], || {
+        format!("hourglass must be 0 or a positive number, found {}", f.hourglass())
+    })?;
+    let conservative = lagrangian && f.viscosity.is_none() && bodies.iter().all(|body| body.law != Law::Maxwell);
+    refuse.unless(conservative || file.time.integrator != Integrator::Pefrl, &["time", "integrator"], || {
+        "pefrl needs forces that depend on positions alone: a Total Lagrangian scene without viscosity or a law that remembers".into()
     })
 }
 

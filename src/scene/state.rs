@@ -1,7 +1,7 @@
 //! A scene's first state, in the precision of the backend that will step it.
 
 use super::Scene;
-use super::file::Viscosity;
+use super::file::{Kind, Viscosity};
 use crate::particles::{Field, Particles, Type};
 use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
@@ -83,7 +83,9 @@ impl Scene {
             columns.reference_position[i] = S::vec_from(particle.position.to_array());
             columns.reference_volume[i] = S::Real::of(particle.volume);
             columns.velocity[i] = S::vec_from(particle.velocity.to_array());
-            columns.volumetric_strain[i] = S::Real::of(body.relative_volume - 1.0);
+            if let Some(slot) = columns.volumetric_strain.get_mut(i) {
+                *slot = S::Real::of(body.relative_volume - 1.0);
+            }
             if let Some(slot) = columns.body.get_mut(i) {
                 *slot = particle.body;
             }
@@ -113,7 +115,8 @@ impl Scene {
     }
 
     fn reach(&self) -> f64 {
-        self.smoothing_length() * (2.0 + self.file.list_margin())
+        let margin = if self.method.kind == Kind::TotalLagrangian { 0.0 } else { self.file.list_margin() };
+        self.smoothing_length() * (2.0 + margin)
     }
 
     /// Entries a neighbour list needs: what the densest packing holds within reach, and half as much again
@@ -174,6 +177,7 @@ impl Scene {
             normalisation: real(f.smoothing.normalisation(self.dimension())),
             reach: real(self.reach()),
             slack: real(0.5 * self.file.list_margin() * self.smoothing_length()),
+            hourglass: real(self.file.formulation.hourglass()),
             alpha: real(viscosity.alpha),
             beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
             softening: real(viscosity.softening.max(LEAST_SOFTENING)),
@@ -216,9 +220,13 @@ impl Scene {
 fn body<R: Real>(body: &super::Body) -> Body<R> {
     let real = R::of;
     Body {
+        law: body.law as u32,
+        padding: 0,
         density: real(body.density),
         bulk_modulus: real(body.bulk_modulus),
         shear_modulus: real(body.shear_modulus),
+        youngs_modulus: real(body.youngs_modulus()),
+        relaxation: real(body.relaxation),
         sound_speed: real(body.sound_speed()),
         smoothing_length: real(body.smoothing_length),
     }

@@ -87,9 +87,13 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         unused: real(c.unused),
     };
     let body = |b: &Body<A::Real>| Body {
+        law: b.law,
+        padding: b.padding,
         density: real(b.density),
         bulk_modulus: real(b.bulk_modulus),
         shear_modulus: real(b.shear_modulus),
+        youngs_modulus: real(b.youngs_modulus),
+        relaxation: real(b.relaxation),
         sound_speed: real(b.sound_speed),
         smoothing_length: real(b.smoothing_length),
     };

@@ -48,6 +48,8 @@ pub struct Gpu {
     info: DeviceInfo,
     tables: Tables,
     planner: Planner,
+    /// Run once, before the first segment.
+    prepare: Vec<Action>,
     begin_segment: Vec<Action>,
     begin_run: Vec<Action>,
     bound: Vec<Action>,
@@ -78,13 +80,14 @@ impl Gpu {
         let tables = Tables::new(&link, &info, state, options.longest_part)?;
         let mut planner = Planner::new(&state.method, options.patch);
         let mut plan = |calls: &[Call]| planner.actions(&link, &tables, calls);
-        let begin_segment = plan(&step::begin_segment())?;
+        let prepare = plan(&step::prepare(&state.method))?;
+        let begin_segment = plan(&step::begin_segment(&state.method))?;
         let begin_run = plan(&step::begin_run(&state.method))?;
         let bound = plan(&[Call { pass: Pass::BoundTimeStep, stage: Stage::default() }])?;
         let step = plan(&step::step(&state.method))?;
         let clock = link.buffer("clock copy", CLOCK_BYTES, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
         let (start, pace) = (f64::from(state.clock.start), Pace::new(state.params.count));
-        Ok(Self { link, info, tables, planner, begin_segment, begin_run, bound, step, clock, start, pace })
+        Ok(Self { link, info, tables, planner, prepare, begin_segment, begin_run, bound, step, clock, start, pace })
     }
 
     /// Runs calls once, in order, and waits.
@@ -224,7 +227,8 @@ impl Backend for Gpu {
         self.write_clock(start, duration, steps)?;
         self.pace.begin_segment(duration, steps);
         let begin_run: &[Action] = if first { &self.begin_run } else { &[] };
-        self.submit(self.begin_segment.iter().chain(begin_run).chain(&self.bound))
+        let prepare = std::mem::take(&mut self.prepare);
+        self.submit(prepare.iter().chain(&self.begin_segment).chain(begin_run).chain(&self.bound))
     }
 
     fn advance(&mut self) -> Result<Clock<f64>, String> {

@@ -65,7 +65,8 @@ fn state(side: usize) -> State<Plane<f32>> {
         cfl: 0.3,
         ..Params::default()
     };
-    let body = Body { density: 1.0, bulk_modulus: 1.0, shear_modulus: 0.5, sound_speed: 1.2, smoothing_length: 1.2 };
+    let body =
+        Body { density: 1.0, bulk_modulus: 1.0, shear_modulus: 0.5, sound_speed: 1.2, smoothing_length: 1.2, ..Body::default() };
     State {
         method,
         params,

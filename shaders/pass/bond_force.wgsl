@@ -1,0 +1,60 @@
+// Acceleration by the bonds of the reference configuration:
+//
+// rho_0 a_a = sum V_b (P_a K_a^-1 + P_b K_b^-1) grad_a W_ab + hourglass force
+//
+// Twin: src/pass/bond_force.rs
+#import invocation
+#import displacement_difference
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> reference_volume: array<real>;
+#if hourglass
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+#endif
+@group(0) @binding(_) var<storage, read> bond_stress: array<Mat>;
+@group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let row = index_of(invocation);
+    if row >= params.chunk || clock.running == 0u {
+        return;
+    }
+    let a = params.first + row;
+    acceleration[a] = sum_bonds(a, row) * (1.0 / body_of(a).density);
+}
+
+fn sum_bonds(a: u32, row: u32) -> Vec {
+    let own_body = body_of(a);
+    let center = reference_position[a];
+#if hourglass
+    let displacement_a = displacement[a];
+    let stiffness = params.hourglass * own_body.youngs_modulus;
+#endif
+    let count = neighbor_count[a];
+    // Sum of the weights alone: what a's own stress is multiplied with.
+    var own = Vec();
+    var others = Vec();
+    for (var k = 0u; k < count; k++) {
+        let bond = bond_of(center, own_body.smoothing_length, neighbors[k * params.chunk + row]);
+        let weight = bond.gradient * reference_volume[bond.b];
+        let x = bond.x * weight;
+        own += x;
+        others += mat_vec(stress_of(bond), x);
+#if hourglass
+        let both = stiffness + params.hourglass * body_of(bond.b).youngs_modulus;
+        others -= displacement_difference(displacement_a, bond) * (both * weight);
+#endif
+    }
+    return mat_vec(bond_stress[a], own) + others;
+}
+
+fn stress_of(bond: Bond) -> Mat {
+#if symmetry
+    if bond.image != 0u {
+        return mirror_tensor(bond.image, bond_stress[bond.b]);
+    }
+#endif
+    return bond_stress[bond.b];
+}

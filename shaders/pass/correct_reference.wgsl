@@ -1,0 +1,26 @@
+// K_a^-1, K_a = sum V_b (X_b - X_a) (x) grad_a W_ab (Bonet & Lok 1999). Twin: src/pass/correct_reference.rs
+#import invocation
+#import bond
+#import inverse
+
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> reference_volume: array<real>;
+@group(0) @binding(_) var<storage, read_write> reference_correction: array<Sym>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let row = index_of(invocation);
+    if row >= params.chunk {
+        return;
+    }
+    let a = params.first + row;
+    let h = body_of(a).smoothing_length;
+    let center = reference_position[a];
+    let count = neighbor_count[a];
+    var moment = Mat();
+    for (var k = 0u; k < count; k++) {
+        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        moment -= outer(bond.x, bond.x * (bond.gradient * reference_volume[bond.b]));
+    }
+    reference_correction[a] = sym_part(safe_inverse(moment));
+}
