@@ -28,6 +28,7 @@
 //! the step loop.
 
 pub mod backend;
+pub mod bond;
 pub mod check;
 pub mod cli;
 pub mod material;

@@ -1,6 +1,7 @@
 //! Everything that the passes of a run read and write, in one precision: the CPU path steps a
 //! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
 
+use crate::bond::BondTable;
 use crate::material::Law;
 use crate::particles::Particles;
 use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
@@ -264,6 +265,8 @@ pub struct State<S: Space> {
     pub cell_particles: Vec<u32>,
     /// Row of `list_capacity` entries for each particle.
     pub neighbors: Vec<u32>,
+    /// Total Lagrangian on the CPU.
+    pub bond_table: BondTable<S>,
     /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
     pub block_bound: Vec<[S::Real; 4]>,
 }

@@ -118,9 +118,11 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
         next.steps_left -= 1u;
         next.steps_done += 1u;
     }
-    if next.rebuild == 1u {
-        next.lists_built += 1u;
-    }
+#if total_lagrangian
+    next.lists_built = 1u;
+#else
+    next.lists_built += next.rebuild;
+#endif
     if next.fault == 0u {
         next.fault = u32(bound.w);
     }

@@ -68,9 +68,7 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
         clock.steps_left -= 1;
         clock.steps_done += 1;
     }
-    if clock.rebuild == 1 {
-        clock.lists_built += 1;
-    }
+    clock.lists_built = if listed_once { 1 } else { clock.lists_built + clock.rebuild };
     if clock.fault == 0 {
         clock.fault = bound[3].f64() as u32;
     }

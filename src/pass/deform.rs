@@ -5,10 +5,9 @@
 //! belongs to one particle; see [`super::bond_force`].
 
 use super::Stage;
+use crate::bond::{Source, displacement_difference, with_bonds};
 use crate::material;
-use crate::pair::{bonds, displacement_difference};
 use crate::scene::file::Gradient;
-use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::Space;
 use rayon::prelude::*;
@@ -19,10 +18,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     let mut stresses = std::mem::take(&mut state.particles.bond_stress);
-    with_kernel!(state.method.smoothing, K => {
+    with_bonds!(state, B => {
         let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
         columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
-            *gradient = displacement_gradient::<S, K>(state, a);
+            *gradient = displacement_gradient::<S, B>(state, a);
             *stress = bond_stress(state, a, *gradient);
         });
     });
@@ -31,11 +30,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 }
 
 #[inline(always)]
-fn displacement_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn displacement_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for bond in bonds::<S, K>(state, a) {
-        let weight = bond.gradient * state.particles.reference_volume[bond.b];
-        sum += S::outer(displacement_difference(state, a, &bond), bond.x * weight);
+    for block in B::blocks(state, a) {
+        for bond in block {
+            sum += S::outer(displacement_difference(state, a, &bond), bond.row.gradient);
+        }
     }
     corrected(state, a, sum)
 }

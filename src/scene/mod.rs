@@ -4,6 +4,7 @@ mod carve;
 mod check;
 mod clip;
 pub mod file;
+mod neighbors;
 pub mod packing;
 pub mod read;
 mod resolve;
@@ -16,6 +17,7 @@ use crate::material::Law;
 use crate::state::Method;
 use glam::DVec3;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -38,6 +40,8 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     /// Spacing at which the artificial stress has its nominal strength.
     pub artificial_spacing: f64,
+    /// Most neighbours of a particle in the reference configuration, found when first asked for.
+    pub(crate) most_bonds: OnceLock<u32>,
 }
 
 /// A body's numbers.

@@ -8,6 +8,7 @@ use super::{Body, Constraint, Particle, Plane, Scene, file};
 use crate::material::Law;
 use crate::state::Method;
 use glam::DVec3;
+use std::sync::OnceLock;
 
 pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let Read { file, source, variant, resolved_text: text, .. } = read;
@@ -21,8 +22,21 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let period = period(&file, &bodies, &refuse)?;
     let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
     let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
-    let scene =
-        Scene { name, variant, file, text, method, bodies, coupling, constraints, particles, period, planes, artificial_spacing };
+    let scene = Scene {
+        name,
+        variant,
+        file,
+        text,
+        method,
+        bodies,
+        coupling,
+        constraints,
+        particles,
+        period,
+        planes,
+        artificial_spacing,
+        most_bonds: OnceLock::new(),
+    };
     crate::observable::check(&scene, |path, message| refuse.at(path, message))?;
     Ok(scene)
 }
@@ -334,6 +348,9 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
         refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;
         refuse.unless((0.0..=1.0).contains(&contact.kernel), &["contact", &at, "kernel"], || {
             format!("kernel must lie between 0 (off) and 1 (as one body), found {}", contact.kernel)
+        })?;
+        refuse.unless(apart > 0.0 || contact.kernel == 0.0, &["contact", &at, "kernel"], || {
+            "Total Lagrangian bodies have no kernel sums with each other: kernel must be 0".into()
         })?;
         (table[a][b], table[b][a]) = (contact.kernel, contact.kernel);
     }

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::file::{Kind, Viscosity};
+use crate::bond::BondTable;
 use crate::particles::{Field, Particles, Type};
 use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
@@ -36,6 +37,7 @@ impl Scene {
             cell_block: vec![0; cells.div_ceil(SCAN_BLOCK)],
             cell_particles: vec![0; count],
             neighbors: vec![0; count * params.list_capacity as usize],
+            bond_table: BondTable::default(),
             block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
         };
         self.fill_constraints(&mut state);
@@ -119,9 +121,12 @@ impl Scene {
         self.smoothing_length() * (2.0 + margin)
     }
 
-    /// Entries a neighbour list needs: what the densest packing holds within reach, and half as much again
+    /// Entries a neighbour list needs. Total Lagrangian: what there is. Eulerian: what the densest packing holds within reach, and half as much again
     /// (twice in the plane, where clumps form more easily), since Eulerian particles may crowd.
     fn list_capacity(&self) -> u32 {
+        if self.method.kind == Kind::TotalLagrangian {
+            return *self.most_bonds.get_or_init(|| self.most_neighbors(self.reach()).max(1));
+        }
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
         let q = self.reach() / spacing;
         let (inside, crowding) = match self.dimension() {

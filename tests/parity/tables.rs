@@ -111,6 +111,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         cell_block: from.cell_block.clone(),
         cell_particles: from.cell_particles.clone(),
         neighbors: from.neighbors.clone(),
+        bond_table: Default::default(),
         block_bound: from.block_bound.iter().map(|bound| bound.map(real)).collect(),
     }
 }
