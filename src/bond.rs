@@ -46,6 +46,8 @@ impl<S: Space> Row<S> {
 /// Where a pass has its bonds from. They come as an iterator of iterators: two plain loops optimise better than
 /// one that goes across blocks.
 pub trait Source<S: Space> {
+    /// Some bonds may end in a mirror image. Without the branch for these a loop stays in vector registers.
+    const IMAGES: bool;
     fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>>;
 }
 
@@ -53,7 +55,7 @@ pub trait Source<S: Space> {
 pub struct Listed<K>(PhantomData<K>);
 
 /// Bonds looked up in the state's table.
-pub struct Tabulated;
+pub struct Tabulated<const IMAGES: bool>;
 
 /// Runs `$body` with `$B` naming the source of the state's bonds.
 macro_rules! with_bonds {
@@ -61,8 +63,13 @@ macro_rules! with_bonds {
         if $state.bond_table.rows.is_empty() {
             $crate::smoothing::with_kernel!($state.method.smoothing, K => { type $B = $crate::bond::Listed<K>; $body })
         } else {
-            type $B = $crate::bond::Tabulated;
-            $body
+            if $state.method.symmetry {
+                type $B = $crate::bond::Tabulated<true>;
+                $body
+            } else {
+                type $B = $crate::bond::Tabulated<false>;
+                $body
+            }
         }
     };
 }
@@ -71,6 +78,8 @@ pub(crate) use with_bonds;
 const LANES: usize = 8;
 
 impl<S: Space, K: Kernel> Source<S> for Listed<K> {
+    const IMAGES: bool = true;
+
     #[inline(always)]
     fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>> {
         let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
@@ -94,15 +103,18 @@ impl<S: Space, K: Kernel> Source<S> for Listed<K> {
     }
 }
 
-impl<S: Space> Source<S> for Tabulated {
+impl<S: Space, const IMAGES: bool> Source<S> for Tabulated<IMAGES> {
+    const IMAGES: bool = IMAGES;
+
     #[inline(always)]
     fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>> {
         let first = a * state.params.list_capacity as usize;
         let entries = state.neighbors_of(a);
         let places = &state.bond_table.place[first..first + entries.len()];
-        std::iter::once(entries.iter().zip(places).map(|(&entry, &place)| {
+        let rows = &state.bond_table.rows[..];
+        std::iter::once(entries.iter().zip(places).map(move |(&entry, &place)| {
             let (b, image) = split(entry);
-            Bond { b, image, row: state.bond_table.rows[place as usize] }
+            Bond { b, image, row: rows[place as usize] }
         }))
     }
 }
@@ -114,10 +126,10 @@ fn split(entry: u32) -> (usize, u32) {
 
 /// u_b - u_a, the neighbour's displacement mirrored if it is an image.
 #[inline(always)]
-pub fn displacement_difference<S: Space>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
+pub fn displacement_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
     let displacement = &state.particles.displacement;
     let mut u_b = displacement[bond.b];
-    if bond.image != 0 {
+    if B::IMAGES && bond.image != 0 {
         u_b = mirror_vector::<S>(&state.params, bond.image, u_b);
     }
     u_b - displacement[a]

@@ -37,13 +37,13 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     for block in B::blocks(state, a) {
         for bond in block {
             let mut stress = particles.bond_stress[bond.b];
-            if bond.image != 0 {
+            if B::IMAGES && bond.image != 0 {
                 stress = mirror_tensor::<S>(&state.params, bond.image, stress);
             }
             own += bond.row.gradient;
             others += S::mat_vec(stress, bond.row.gradient);
             if state.method.hourglass {
-                others = others - displacement_difference(state, a, &bond) * (stiffness * bond.row.weight);
+                others = others - displacement_difference::<S, B>(state, a, &bond) * (stiffness * bond.row.weight);
             }
         }
     }

@@ -21,8 +21,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     with_bonds!(state, B => {
         let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
         columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
-            *gradient = displacement_gradient::<S, B>(state, a);
-            *stress = bond_stress(state, a, *gradient);
+            *gradient = sum_bonds::<S, B>(state, a);
+            (*gradient, *stress) = respond(state, a, gradient);
         });
     });
     state.particles.displacement_gradient = gradients;
@@ -30,14 +30,21 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 }
 
 #[inline(always)]
-fn displacement_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
+fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
     for block in B::blocks(state, a) {
         for bond in block {
-            sum += S::outer(displacement_difference(state, a, &bond), bond.row.gradient);
+            sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
         }
     }
-    corrected(state, a, sum)
+    sum
+}
+
+/// H and what the bonds carry. Out of line, so that the sums of the loop before stay in vector registers.
+#[inline(never)]
+fn respond<S: Space>(state: &State<S>, a: usize, sum: &S::Mat) -> (S::Mat, S::Mat) {
+    let gradient = corrected(state, a, *sum);
+    (gradient, bond_stress(state, a, gradient))
 }
 
 /// M K_a^-1
