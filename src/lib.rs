@@ -31,6 +31,7 @@ pub mod backend;
 pub mod bond;
 pub mod check;
 pub mod cli;
+pub mod contact;
 pub mod material;
 pub mod observable;
 pub mod output;

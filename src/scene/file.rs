@@ -5,6 +5,7 @@
 
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
+use crate::contact::Potential;
 use crate::material::Law;
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
@@ -288,13 +289,26 @@ pub enum ArtificialSpacing {
     Given(f64),
 }
 
-/// What acts between two bodies through the kernel sums.
+/// What acts between two bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     pub between: [String; 2],
-    /// 1: as if one body; 0: not at all; between: weakened.
-    pub kernel: f64,
+    /// 1: as if one body; 0: not at all; between: weakened. Eulerian only; 1 unless given.
+    pub kernel: Option<f64>,
+    /// Repulsion of particles that come close; a body may be named twice, to touch itself.
+    pub potential: Option<PairPotential>,
+}
+
+/// U = strength phi(r/range) for each pair of particles.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairPotential {
+    pub law: Potential,
+    /// Strength over Young's modulus times the volume of a cube of one spacing.
+    pub stiffness: f64,
+    /// In spacings.
+    pub range: f64,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -14,7 +14,7 @@ mod state;
 mod words;
 
 use crate::material::Law;
-use crate::state::Method;
+use crate::state::{ContactPair, Method};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -32,6 +32,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Weight of the kernel sums between bodies a and b.
     pub coupling: Vec<Vec<f64>>,
+    /// How bodies a and b touch.
+    pub contacts: Vec<Vec<ContactPair<f64>>>,
     pub constraints: Vec<Constraint>,
     /// In order of their numbers.
     pub particles: Vec<Particle>,

@@ -33,7 +33,7 @@ const UNTAGGED: [(&str, &str); 2] = [
 ];
 
 /// Tables that someone may take for lists of tables.
-const TABLES: [&str; 7] = ["formulation", "viscosity", "artificial_stress", "time", "output", "picture", "select"];
+const TABLES: [&str; 8] = ["formulation", "potential", "viscosity", "artificial_stress", "time", "output", "picture", "select"];
 
 /// What lists hold that hold no numbers.
 const LISTS: [(&str, &str); 14] = [
