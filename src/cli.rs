@@ -278,11 +278,7 @@ fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
 
 /// A run that nothing is expected of would only cost time.
 fn expects_something(scene: &Scene) -> bool {
-    scene.file.expect.values().any(|expect| match expect.variant.as_deref() {
-        None => true,
-        Some("none") => scene.variant.is_none(),
-        Some(word) => scene.variant.as_deref() == Some(word),
-    })
+    scene.file.expect.values().any(|expect| check::applies(scene, expect))
 }
 
 #[cfg(feature = "hdf5")]
