@@ -1,5 +1,7 @@
 //! Command line: words, and the table of commands.
 
+mod study;
+
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
@@ -29,6 +31,9 @@ enum Command {
     List { scene: Option<PathBuf> },
     /// List the adapters that a run can use.
     Devices,
+    /// Sweep settings over a scene.
+    #[command(subcommand)]
+    Study(study::Study),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -182,6 +187,7 @@ pub fn main() -> i32 {
         Command::Render(args) => render(&args),
         Command::List { scene } => list(scene.as_deref()),
         Command::Devices => devices(),
+        Command::Study(what) => study::study(&what),
     };
     match result {
         Ok(code) => code,
