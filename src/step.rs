@@ -138,7 +138,7 @@ fn drift(part: f64) -> Call {
 /// Coefficients of Omelyan, Mryglod & Folk 2002, equation (20).
 const XI: f64 = 0.178_617_895_844_809_1;
 const LAMBDA: f64 = -0.212_341_831_062_605_4;
-const CHI: f64 = -0.066_264_582_669_818_49;
+const CHI: f64 = -0.066_264_582_669_818_5;
 
 /// Drift, kick, drift, kick … so that the errors of third order cancel.
 fn pefrl(method: &Method) -> Vec<Call> {

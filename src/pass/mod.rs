@@ -164,6 +164,13 @@ passes! {
     bound_time_step: BoundTimeStep, [blocks: ReductionBlocks, advance: One], "advances the clock; finds the next step, whether the list still holds, and faults";
 }
 
+impl Pass {
+    /// Whether it sums the forces on the particles: by the number of such passes the cost of integrators is compared.
+    pub fn is_force(self) -> bool {
+        matches!(self, Pass::Force | Pass::BondForce)
+    }
+}
+
 /// Particles of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
 const GRAIN: usize = 128;
 

@@ -55,6 +55,8 @@ pub struct File {
     pub observe: BTreeMap<String, Observe>,
     #[serde(default)]
     pub expect: BTreeMap<String, Expect>,
+    #[serde(default)]
+    pub study: Study,
     /// Named sets of changes; see [`super::read`]. Kept as typed: each is merged into the file and read again.
     #[serde(default)]
     pub variant: BTreeMap<String, toml::Table>,
@@ -498,4 +500,12 @@ pub enum Statistic {
     Mean,
     /// Largest distance from the first value.
     Drift,
+}
+
+/// What the studies of `lithosph study` vary.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Study {
+    /// Override paths in quotes, and the values that each takes: `"time.cfl" = [0.2, 0.4]`.
+    pub accuracy: Option<BTreeMap<String, Vec<toml::Value>>>,
 }

@@ -108,8 +108,13 @@ pub struct Plane {
 impl Scene {
     /// Reads and resolves a scene file. Errors are one sentence with file and line.
     pub fn open(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
+        Self::open_text(&read::text_of(path)?, path, variant, overrides)
+    }
+
+    /// The same from a text that was read from the file before.
+    pub fn open_text(text: &str, path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
         let name = path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
-        resolve::resolve(name, read::read(path, variant, overrides)?)
+        resolve::resolve(name, read::read_text(text, &path.display().to_string(), variant, overrides)?)
     }
 
     /// The same from text.
