@@ -13,6 +13,10 @@ use crate::tensor::{Plane, Tuple};
 fn method() -> Method {
     Method {
         dimension: 2,
+        kind: Default::default(),
+        laws: vec![Default::default()],
+        hourglass: false,
+        contact: None,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,
         density: Density::Continuity,
@@ -81,6 +85,9 @@ fn state(side: usize) -> State<Plane<f32>> {
         cell_block: Vec::new(),
         cell_particles: Vec::new(),
         neighbors: Vec::new(),
+        bond_table: Default::default(),
+        contacts: Vec::new(),
+        contact_pairs: Vec::new(),
         block_bound: Vec::new(),
     }
 }

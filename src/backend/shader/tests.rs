@@ -90,6 +90,10 @@ fn methods() -> Vec<Method> {
         for k in 0..2 * 2 * 3 * 3 * 2 {
             let mut method = Method {
                 dimension,
+                kind: Default::default(),
+                laws: vec![Default::default()],
+                hourglass: false,
+                contact: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
