@@ -13,6 +13,8 @@ pub enum Type {
     Vec,
     Sym,
     Mat,
+    /// A `Sym` for each axis.
+    Tri,
 }
 
 /// How the unit of a field is made of length, mass and time: exponents in that order.
@@ -24,6 +26,7 @@ macro_rules! column {
     (Vec, $S:ident) => { Vec<$S::Vec> };
     (Sym, $S:ident) => { Vec<$S::Sym> };
     (Mat, $S:ident) => { Vec<$S::Mat> };
+    (Tri, $S:ident) => { Vec<$S::Tri> };
 }
 
 macro_rules! fields {
@@ -131,6 +134,9 @@ fields! {
     velocity_gradient: VelocityGradient, Mat, RATE, true, "dv_i/dx_j";
     correction: Correction, Mat, NONE, false, "inverse of the first moment of the kernel gradient";
     reference_correction: ReferenceCorrection, Sym, NONE, false, "inverse of the first moment of the kernel gradient in the reference configuration";
+    linear_coefficient: LinearCoefficient, Sym, NONE, false, "quadratic-exact gradient: what multiplies the sum over the separations";
+    quadratic_coefficient: QuadraticCoefficient, Tri, [-1, 0, 0], false, "quadratic-exact gradient: what multiplies the sum over the separations' products";
+    quadratic_stress: QuadraticStress, Tri, [-2, 1, -2], false, "first Piola-Kirchhoff stress times the quadratic coefficient";
     bond_stress: BondStress, Mat, STRESS, false, "first Piola-Kirchhoff stress times the gradient correction, less the hourglass stiffness times H";
     specific_stress: SpecificStress, Sym, SPECIFIC_STRESS, false, "stress over density squared";
     corrected_stress: CorrectedStress, Mat, STRESS, false, "stress times the gradient correction";
@@ -167,6 +173,7 @@ impl Type {
             Type::Vec => S::Vec::LENGTH,
             Type::Sym => S::Sym::LENGTH,
             Type::Mat => S::Mat::LENGTH,
+            Type::Tri => S::Tri::LENGTH,
         }
     }
 

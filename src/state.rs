@@ -77,6 +77,7 @@ impl Method {
             ("principal_form", self.artificial_stress == Some(ArtificialForm::Principal)),
             ("continuity", self.density == Density::Continuity),
             ("correct_rate", self.gradient != Gradient::Plain),
+            ("quadratic_gradient", self.gradient == Gradient::Quadratic),
             ("adjoint", self.gradient == Gradient::Adjoint),
             ("internal_energy", self.internal_energy),
             ("dissipated_energy", self.dissipated_energy),

@@ -58,6 +58,9 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     if method.kind == Kind::TotalLagrangian {
         order(true, &mut calls);
         calls.push(call(Pass::CorrectReference));
+        if method.gradient == Gradient::Quadratic {
+            calls.push(call(Pass::CorrectQuadratic));
+        }
     }
     calls
 }
@@ -210,6 +213,7 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (method.contact.is_some(), &[ContactCount, ContactEnergy]),
         (!eulerian, &[DisplacementGradient, BondStress]),
         (!eulerian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
+        (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
         (method.memory(), &[ViscousStrain]),
         (method.many_bodies, &[Body]),
         (method.constraints, &[Field::Constraint]),

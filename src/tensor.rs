@@ -114,6 +114,10 @@ pub trait Space: Copy + Send + Sync + 'static {
     type Mat: Linear<Self::Real>;
     /// xx in 1D; xx, yy, xy in 2D; xx, yy, zz, xy, yz, xz in 3D.
     type Sym: Linear<Self::Real>;
+    /// A symmetric tensor for each axis: what acts on the products of two components.
+    type Tri: Linear<Self::Real>;
+    /// Row k holds the numbers of a quadratic polynomial without its constant: axes, then products as in `Sym`.
+    type Quadratic: Linear<Self::Real>;
     const DIMENSION: usize;
     /// Where component (row, column) of a symmetric tensor is stored.
     fn sym_index(row: usize, column: usize) -> usize;
@@ -140,6 +144,65 @@ pub trait Space: Copy + Send + Sync + 'static {
             }
         }
         m
+    }
+    /// Products x_i x_j, each once.
+    #[inline(always)]
+    fn products(x: Self::Vec) -> Self::Sym {
+        let mut s = Self::Sym::default();
+        for i in 0..Self::DIMENSION {
+            for j in 0..=i {
+                s[Self::sym_index(i, j)] = x[i] * x[j];
+            }
+        }
+        s
+    }
+    /// Component (i, s) is a_i b_s.
+    #[inline(always)]
+    fn tri_outer(a: Self::Vec, b: Self::Sym) -> Self::Tri {
+        let mut t = Self::Tri::default();
+        for i in 0..Self::DIMENSION {
+            for s in 0..Self::Sym::LENGTH {
+                t[i * Self::Sym::LENGTH + s] = a[i] * b[s];
+            }
+        }
+        t
+    }
+    /// Sum over s of T_is b_s.
+    #[inline(always)]
+    fn tri_sym(t: Self::Tri, b: Self::Sym) -> Self::Vec {
+        let mut v = Self::Vec::default();
+        for i in 0..Self::DIMENSION {
+            for s in 0..Self::Sym::LENGTH {
+                v[i] += t[i * Self::Sym::LENGTH + s] * b[s];
+            }
+        }
+        v
+    }
+    /// Sum over s of A_is B_js.
+    #[inline(always)]
+    fn tri_tri(a: Self::Tri, b: Self::Tri) -> Self::Mat {
+        let mut m = Self::Mat::default();
+        for i in 0..Self::DIMENSION {
+            for j in 0..Self::DIMENSION {
+                for s in 0..Self::Sym::LENGTH {
+                    m[Self::mat_index(i, j)] += a[i * Self::Sym::LENGTH + s] * b[j * Self::Sym::LENGTH + s];
+                }
+            }
+        }
+        m
+    }
+    /// Sum over j of M_ij T_js.
+    #[inline(always)]
+    fn mat_tri(m: Self::Mat, t: Self::Tri) -> Self::Tri {
+        let mut product = Self::Tri::default();
+        for i in 0..Self::DIMENSION {
+            for j in 0..Self::DIMENSION {
+                for s in 0..Self::Sym::LENGTH {
+                    product[i * Self::Sym::LENGTH + s] += m[Self::mat_index(i, j)] * t[j * Self::Sym::LENGTH + s];
+                }
+            }
+        }
+        product
     }
     #[inline(always)]
     fn mat_vec(m: Self::Mat, v: Self::Vec) -> Self::Vec {
@@ -276,6 +339,8 @@ impl<R: Real> Space for Line<R> {
     type Vec = Tuple<R, 1>;
     type Mat = Tuple<R, 1>;
     type Sym = Tuple<R, 1>;
+    type Tri = Tuple<R, 1>;
+    type Quadratic = Tuple<R, 4>;
     const DIMENSION: usize = 1;
     #[inline(always)]
     fn sym_index(_: usize, _: usize) -> usize {
@@ -296,6 +361,8 @@ impl<R: Real> Space for Plane<R> {
     type Vec = Tuple<R, 2>;
     type Mat = Tuple<R, 4>;
     type Sym = Tuple<R, 3>;
+    type Tri = Tuple<R, 6>;
+    type Quadratic = Tuple<R, 25>;
     const DIMENSION: usize = 2;
     #[inline(always)]
     fn sym_index(row: usize, column: usize) -> usize {
@@ -326,6 +393,8 @@ impl<R: Real> Space for Solid<R> {
     type Vec = Tuple<R, 4>;
     type Mat = Tuple<R, 12>;
     type Sym = Tuple<R, 6>;
+    type Tri = Tuple<R, 18>;
+    type Quadratic = Tuple<R, 81>;
     const DIMENSION: usize = 3;
     #[inline(always)]
     fn sym_index(row: usize, column: usize) -> usize {

@@ -4,6 +4,7 @@
 alias Vec = real;
 alias Mat = real;
 alias Sym = real;
+alias Tri = real;
 alias Mask = bool;
 const DIMENSION: u32 = 1u;
 
@@ -74,4 +75,38 @@ fn determinant_mat(m: Mat) -> real {
 }
 fn adjugate(m: Mat) -> Mat {
     return 1.0;
+}
+// Products x_i x_j, each once.
+fn products(x: Vec) -> Sym {
+    return x * x;
+}
+// Component (i, s) is a_i b_s.
+fn tri_outer(a: Vec, b: Sym) -> Tri {
+    return a * b;
+}
+fn tri_add(a: Tri, b: Tri) -> Tri {
+    return a + b;
+}
+// Sum over s of T_is b_s.
+fn tri_sym(t: Tri, b: Sym) -> Vec {
+    return t * b;
+}
+// Sum over s of A_is B_js.
+fn tri_tri(a: Tri, b: Tri) -> Mat {
+    return a * b;
+}
+// Sum over j of M_ij T_js.
+fn mat_tri(m: Mat, t: Tri) -> Tri {
+    return m * t;
+}
+// Numbers of a quadratic polynomial without its constant, and the place of each in Vec, Sym and Tri.
+const TERMS: u32 = 2u;
+fn term(d: Vec, products: Sym, k: u32) -> real {
+    return select(products, d, k == 0u);
+}
+fn sym_of_terms(m: ptr<function, array<real, 4>>, scale: real) -> Sym {
+    return (*m)[0] * scale;
+}
+fn tri_of_terms(m: ptr<function, array<real, 4>>, scale: real) -> Tri {
+    return (*m)[2] * scale;
 }

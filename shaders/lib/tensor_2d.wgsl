@@ -12,6 +12,12 @@ struct Sym {
     xy: real,
 }
 
+// A symmetric tensor for each axis.
+struct Tri {
+    x: Sym,
+    y: Sym,
+}
+
 fn vec_of(x: real, y: real, z: real) -> Vec {
     return Vec(x, y);
 }
@@ -85,4 +91,53 @@ fn determinant_mat(m: Mat) -> real {
 // Transposed matrix of cofactors: the inverse times the determinant.
 fn adjugate(m: Mat) -> Mat {
     return Mat(Vec(m[1].y, -m[0].y), Vec(-m[1].x, m[0].x));
+}
+// Products x_i x_j, each once.
+fn products(x: Vec) -> Sym {
+    return Sym(x.x * x.x, x.y * x.y, x.x * x.y);
+}
+// Component (i, s) is a_i b_s.
+fn tri_outer(a: Vec, b: Sym) -> Tri {
+    return Tri(sym_scale(b, a.x), sym_scale(b, a.y));
+}
+fn tri_add(a: Tri, b: Tri) -> Tri {
+    return Tri(sym_add(a.x, b.x), sym_add(a.y, b.y));
+}
+fn sym_dot(a: Sym, b: Sym) -> real {
+    return a.xx * b.xx + a.yy * b.yy + a.xy * b.xy;
+}
+// Sum over s of T_is b_s.
+fn tri_sym(t: Tri, b: Sym) -> Vec {
+    return Vec(sym_dot(t.x, b), sym_dot(t.y, b));
+}
+// Sum over s of A_is B_js.
+fn tri_tri(a: Tri, b: Tri) -> Mat {
+    return Mat(tri_sym(a, b.x), tri_sym(a, b.y));
+}
+// Sum over j of M_ij T_js.
+fn mat_tri(m: Mat, t: Tri) -> Tri {
+    return Tri(
+        sym_add(sym_scale(t.x, m[0].x), sym_scale(t.y, m[1].x)),
+        sym_add(sym_scale(t.x, m[0].y), sym_scale(t.y, m[1].y)),
+    );
+}
+// Numbers of a quadratic polynomial without its constant, and the place of each in Vec, Sym and Tri.
+const TERMS: u32 = 5u;
+fn term(d: Vec, products: Sym, k: u32) -> real {
+    switch k {
+        case 0u: { return d.x; }
+        case 1u: { return d.y; }
+        case 2u: { return products.xx; }
+        case 3u: { return products.yy; }
+        default: { return products.xy; }
+    }
+}
+fn sym_of_terms(m: ptr<function, array<real, 25>>, scale: real) -> Sym {
+    return Sym((*m)[0] * scale, (*m)[6] * scale, (*m)[1] * scale);
+}
+fn tri_of_terms(m: ptr<function, array<real, 25>>, scale: real) -> Tri {
+    return Tri(
+        Sym((*m)[10] * scale, (*m)[15] * scale, (*m)[20] * scale),
+        Sym((*m)[11] * scale, (*m)[16] * scale, (*m)[21] * scale),
+    );
 }

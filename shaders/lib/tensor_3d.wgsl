@@ -15,6 +15,13 @@ struct Sym {
     xz: real,
 }
 
+// A symmetric tensor for each axis.
+struct Tri {
+    x: Sym,
+    y: Sym,
+    z: Sym,
+}
+
 fn vec_of(x: real, y: real, z: real) -> Vec {
     return Vec(x, y, z);
 }
@@ -93,4 +100,62 @@ fn determinant_mat(m: Mat) -> real {
 // Transposed matrix of cofactors: the inverse times the determinant. Its rows are cross products of the columns.
 fn adjugate(m: Mat) -> Mat {
     return transpose(Mat(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])));
+}
+// Products x_i x_j, each once.
+fn products(x: Vec) -> Sym {
+    return Sym(x.x * x.x, x.y * x.y, x.z * x.z, x.x * x.y, x.y * x.z, x.x * x.z);
+}
+// Component (i, s) is a_i b_s.
+fn tri_outer(a: Vec, b: Sym) -> Tri {
+    return Tri(sym_scale(b, a.x), sym_scale(b, a.y), sym_scale(b, a.z));
+}
+fn tri_add(a: Tri, b: Tri) -> Tri {
+    return Tri(sym_add(a.x, b.x), sym_add(a.y, b.y), sym_add(a.z, b.z));
+}
+fn sym_dot(a: Sym, b: Sym) -> real {
+    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + a.xy * b.xy + a.yz * b.yz + a.xz * b.xz;
+}
+// Sum over s of T_is b_s.
+fn tri_sym(t: Tri, b: Sym) -> Vec {
+    return Vec(sym_dot(t.x, b), sym_dot(t.y, b), sym_dot(t.z, b));
+}
+// Sum over s of A_is B_js.
+fn tri_tri(a: Tri, b: Tri) -> Mat {
+    return Mat(tri_sym(a, b.x), tri_sym(a, b.y), tri_sym(a, b.z));
+}
+fn combined(t: Tri, factors: Vec) -> Sym {
+    return sym_add(sym_add(sym_scale(t.x, factors.x), sym_scale(t.y, factors.y)), sym_scale(t.z, factors.z));
+}
+// Sum over j of M_ij T_js.
+fn mat_tri(m: Mat, t: Tri) -> Tri {
+    let rows = transpose(m);
+    return Tri(combined(t, rows[0]), combined(t, rows[1]), combined(t, rows[2]));
+}
+// Numbers of a quadratic polynomial without its constant, and the place of each in Vec, Sym and Tri.
+const TERMS: u32 = 9u;
+fn term(d: Vec, products: Sym, k: u32) -> real {
+    switch k {
+        case 0u: { return d.x; }
+        case 1u: { return d.y; }
+        case 2u: { return d.z; }
+        case 3u: { return products.xx; }
+        case 4u: { return products.yy; }
+        case 5u: { return products.zz; }
+        case 6u: { return products.xy; }
+        case 7u: { return products.yz; }
+        default: { return products.xz; }
+    }
+}
+fn sym_of_terms(m: ptr<function, array<real, 81>>, scale: real) -> Sym {
+    return sym_scale(Sym((*m)[0], (*m)[10], (*m)[20], (*m)[1], (*m)[11], (*m)[2]), scale);
+}
+fn sym_of_column(m: ptr<function, array<real, 81>>, column: u32, scale: real) -> Sym {
+    let first = 27u + column;
+    return sym_scale(
+        Sym((*m)[first], (*m)[first + 9u], (*m)[first + 18u], (*m)[first + 27u], (*m)[first + 36u], (*m)[first + 45u]),
+        scale,
+    );
+}
+fn tri_of_terms(m: ptr<function, array<real, 81>>, scale: real) -> Tri {
+    return Tri(sym_of_column(m, 0u, scale), sym_of_column(m, 1u, scale), sym_of_column(m, 2u, scale));
 }

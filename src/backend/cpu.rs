@@ -32,7 +32,8 @@ impl<S: Space> Cpu<S> {
         if state.method.kind == Kind::TotalLagrangian {
             state.bond_table = with_kernel!(state.method.smoothing, K => BondTable::new::<K>(state));
             let calls = step::prepare(&state.method);
-            let after: Vec<Call> = calls.into_iter().filter(|call| call.pass == Pass::CorrectReference).collect();
+            let after: Vec<Call> =
+                calls.into_iter().filter(|call| matches!(call.pass, Pass::CorrectReference | Pass::CorrectQuadratic)).collect();
             self.run(&after);
         }
     }

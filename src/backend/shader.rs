@@ -54,6 +54,7 @@ const FLAGS: &[&str] = &[
     "continuity",
     "correct_rate",
     "adjoint",
+    "quadratic_gradient",
     "internal_energy",
     "dissipated_energy",
     "pair_velocity",

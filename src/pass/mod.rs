@@ -8,6 +8,7 @@ mod bond_force;
 mod bound_time_step;
 mod contact_force;
 mod correct_gradient;
+mod correct_quadratic;
 mod correct_reference;
 mod deform;
 mod drift;
@@ -152,6 +153,7 @@ passes! {
     specific_stress: SpecificStress, [main: Particles], "stress in the form that the pair force sums, and the artificial stress";
     force: Force, [main: Listed], "acceleration, Fuller (2.59) with the sign of the viscosity mended";
     correct_reference: CorrectReference, [main: Listed], "inverse of the first moment of the kernel gradient in the reference configuration";
+    correct_quadratic: CorrectQuadratic, [main: Listed], "coefficients of the gradient that is exact for quadratic displacements";
     deform: Deform, [main: Listed], "deformation gradient, stress, and what the bonds carry of it";
     bond_force: BondForce, [main: Listed], "acceleration by the bonds of the reference configuration";
     find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";

@@ -239,6 +239,8 @@ pub enum Gradient {
     Corrected,
     /// The force is the adjoint of the corrected velocity gradient: keeps energy and angular momentum.
     Adjoint,
+    /// Total Lagrangian: exact for quadratic displacements, for thin parts. Needs three layers of particles.
+    Quadratic,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

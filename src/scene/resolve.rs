@@ -508,6 +508,10 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
             format!("{word} belongs to the Eulerian formulation, and formulation.kind is `total_lagrangian`")
         })?;
     }
+    let quadratic = f.gradient == Some(Gradient::Quadratic);
+    refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {
+        "the quadratic gradient belongs to formulation.kind `total_lagrangian`, and does not see mirror images: no [[symmetry]]".into()
+    })?;
     refuse.unless(lagrangian || f.hourglass.is_none(), &["formulation", "hourglass"], || {
         "hourglass belongs to formulation.kind `total_lagrangian`".into()
     })?;
