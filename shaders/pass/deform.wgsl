@@ -12,7 +12,10 @@
 @group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
 #endif
 #if memory
-@group(0) @binding(_) var<storage, read> viscous_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read_write> viscous_strain: array<Sym>;
+#if dissipated_energy
+@group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
+#endif
 #endif
 @group(0) @binding(_) var<storage, read_write> displacement_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read_write> bond_stress: array<Mat>;
@@ -25,6 +28,9 @@ fn main(invocation: Invocation) {
     }
     let a = params.first + row;
     let gradient = displacement_gradient_of(a, row);
+#if memory
+    relax_to(a, gradient);
+#endif
     displacement_gradient[a] = gradient;
     bond_stress[a] = bond_stress_of(a, gradient);
 }
@@ -51,6 +57,19 @@ fn corrected(a: u32, m: Mat) -> Mat {
     return m;
 #endif
 }
+
+#if memory
+// Takes what the law remembers to the end of the step, at the new H. Before the first step the clock's is 0.
+fn relax_to(a: u32, gradient: Mat) {
+    let own = body_of(a);
+    let old = viscous_strain[a];
+    let memory = relax(own, gradient, old, clock.step);
+    viscous_strain[a] = memory;
+#if dissipated_energy
+    dissipated_energy[a] += dissipated(own, displacement_gradient[a], old, gradient, memory) * (1.0 / own.density);
+#endif
+}
+#endif
 
 fn bond_stress_of(a: u32, gradient: Mat) -> Mat {
     let own = body_of(a);

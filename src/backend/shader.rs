@@ -1,12 +1,15 @@
 //! Shader text for one method, and what naga reads out of it.
 //!
 //! Sources are WGSL with four directives, each on a line of its own:
-//! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor` and
-//! `smoothing` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
+//! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`, `smoothing` and
+//! `laws` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
 //! [`Method::flags`].
 //! `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
 //! are bound by the variables' names, which [`Shader::entry`] tells.
 
+mod laws;
+
+use crate::material::Law;
 use crate::pass::Pass;
 use crate::state::Method;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -24,8 +27,8 @@ macro_rules! library {
 
 library! {
     lib: body, body_index, bond, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
-        moving_velocity, pair, pair_velocity, params, real, separation, tensor_1d, tensor_2d, tensor_3d, volume;
-    material: elastic, laws, st_venant_kirchhoff;
+        moving_velocity, pair, pair_velocity, params, real, separation, strain, tensor_1d, tensor_2d, tensor_3d, volume;
+    material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
 
 /// Every word that `#if` may ask for.
@@ -65,6 +68,8 @@ pub struct Choice<'a> {
     pub dimension: usize,
     /// Text for `#import smoothing`.
     pub smoothing: &'a str,
+    /// What `#import laws` chooses from, in order of their numbers.
+    pub laws: &'a [Law],
 }
 
 /// The WGSL of a pass for a method.
@@ -72,7 +77,8 @@ pub struct Choice<'a> {
 /// # Panics
 /// If a shader of this crate names an unknown flag, import or directive.
 pub fn compose(pass: Pass, method: &Method) -> String {
-    let choice = Choice { flags: &method.flags(), dimension: method.dimension, smoothing: method.smoothing.source() };
+    let choice =
+        Choice { flags: &method.flags(), dimension: method.dimension, smoothing: method.smoothing.source(), laws: &method.laws };
     compose_text(pass.name(), pass.source(), &choice)
 }
 
@@ -133,6 +139,7 @@ impl Composer<'_> {
     fn find(&self, import: &str) -> Option<String> {
         let stem = match import {
             "smoothing" => return Some(self.choice.smoothing.to_string()),
+            "laws" => return Some(laws::text(self.choice.laws)),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),
         };

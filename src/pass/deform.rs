@@ -2,7 +2,8 @@
 //! it, P_a K_a^-1 - alpha E H_a. Twin: shaders/pass/deform.wgsl
 //!
 //! The sums run over the reference configuration. The second term is the part of the hourglass force that
-//! belongs to one particle; see [`super::bond_force`].
+//! belongs to one particle; see [`super::bond_force`]. In between, a law that remembers takes its memory to the
+//! end of the step.
 
 use super::Stage;
 use crate::material;
@@ -10,24 +11,41 @@ use crate::pair::{bonds, displacement_difference};
 use crate::scene::file::Gradient;
 use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
-use crate::tensor::Space;
-use rayon::prelude::*;
+use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
-    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
+    let before = if state.method.memory() && state.method.dissipated_energy { gradients.clone() } else { Vec::new() };
     with_kernel!(state.method.smoothing, K => {
-        let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
-        columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
-            *gradient = displacement_gradient::<S, K>(state, a);
-            *stress = bond_stress(state, a, *gradient);
-        });
+        super::write(&mut gradients, |a, slot| *slot = displacement_gradient::<S, K>(state, a));
     });
     state.particles.displacement_gradient = gradients;
+    relax(state, &before);
+    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
+    super::write(&mut stresses, |a, slot| *slot = bond_stress(state, a));
     state.particles.bond_stress = stresses;
+}
+
+/// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
+fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
+    let step = state.clock.step;
+    let mut memories = std::mem::take(&mut state.particles.viscous_strain);
+    let mut heats = if before.is_empty() { Vec::new() } else { std::mem::take(&mut state.particles.dissipated_energy) };
+    let old = if before.is_empty() { Vec::new() } else { memories.clone() };
+    let gradients = &state.particles.displacement_gradient;
+    super::write(&mut memories, |a, memory| *memory = material::relax::<S>(state.body(a), gradients[a], *memory, step));
+    super::write(&mut heats, |a, heat| {
+        let body = state.body(a);
+        let heat_of_step = material::dissipated::<S>(body, (before[a], old[a]), (gradients[a], memories[a]));
+        *heat += heat_of_step * (S::Real::of(1.0) / body.density);
+    });
+    state.particles.viscous_strain = memories;
+    if !before.is_empty() {
+        state.particles.dissipated_energy = heats;
+    }
 }
 
 #[inline(always)]
@@ -50,8 +68,8 @@ fn corrected<S: Space>(state: &State<S>, a: usize, m: S::Mat) -> S::Mat {
 }
 
 #[inline(always)]
-fn bond_stress<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
-    let body = state.body(a);
+fn bond_stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
+    let (body, gradient) = (state.body(a), state.particles.displacement_gradient[a]);
     let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
     let stress = corrected(state, a, material::first_piola::<S>(body, gradient, memory));
     if !state.method.hourglass {

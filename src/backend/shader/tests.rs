@@ -3,7 +3,7 @@
 use super::*;
 
 fn composed(source: &str, flags: &[&str]) -> String {
-    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n" })
+    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", laws: &[] })
 }
 
 #[test]
