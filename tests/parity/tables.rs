@@ -157,7 +157,7 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
         same: count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
             artificial_exponent, zero;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
-            body_force_y, body_force_z, normalisation, reach, slack, alpha, beta, softening, smoothing_weight,
+            body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
             artificial_epsilon, artificial_weight, cfl, fixed_step
     )
 }
@@ -263,7 +263,9 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             }
             VelocityGradient | VolumetricStrainRate | VolumetricStrainSum => 0.02 * rate * random.signed(),
             DeviatoricStressRate | DeviatoricStressSum => 0.02 * rate * bulk * random.signed(),
-            Correction => random.signed(),
+            Correction | ReferenceCorrection => random.signed(),
+            DisplacementGradient | ViscousStrain => 0.1 * random.signed(),
+            BondStress => bulk * strain(random),
             Number | Body | Field::Constraint | Cell | NeighborCount => unreachable!(),
         }
     };

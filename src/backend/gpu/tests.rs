@@ -4,8 +4,9 @@
 use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
+use crate::material::Law;
 use crate::particles::Particles;
-use crate::scene::file::{Density, Gradient, Integrator};
+use crate::scene::file::{Density, Gradient, Integrator, Kind};
 use crate::smoothing::Smoothing;
 use crate::state::{Body, Method, REDUCTION_BLOCK, SCAN_BLOCK};
 use crate::tensor::{Plane, Tuple};
@@ -13,6 +14,9 @@ use crate::tensor::{Plane, Tuple};
 fn method() -> Method {
     Method {
         dimension: 2,
+        kind: Kind::Eulerian,
+        laws: vec![Law::Elastic],
+        hourglass: false,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,
         density: Density::Continuity,

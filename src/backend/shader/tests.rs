@@ -67,7 +67,7 @@ fn reflection_tells_what_each_entry_point_uses() {
 }
 
 fn methods() -> Vec<Method> {
-    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
     use crate::smoothing::Smoothing;
     let switches: [fn(&mut Method); 13] = [
         |_| (),
@@ -90,6 +90,9 @@ fn methods() -> Vec<Method> {
         for k in 0..2 * 2 * 3 * 3 * 2 {
             let mut method = Method {
                 dimension,
+                kind: Kind::Eulerian,
+                laws: vec![Law::Elastic],
+                hourglass: false,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
@@ -116,6 +119,58 @@ fn methods() -> Vec<Method> {
                 switch(if together { &mut method } else { &mut alone });
                 list.push(if together { method.clone() } else { alone });
             }
+        }
+    }
+    list.extend((1..=3).flat_map(lagrangian_methods));
+    list
+}
+
+/// Every set of laws, with each switch of the Total Lagrangian formulation alone and with all.
+fn lagrangian_methods(dimension: usize) -> Vec<Method> {
+    use crate::scene::file::{Density, Gradient, Integrator, Kind};
+    use crate::smoothing::Smoothing;
+    let switches: [fn(&mut Method); 8] = [
+        |_| (),
+        |m| m.hourglass = true,
+        |m| m.gradient = Gradient::Plain,
+        |m| m.many_bodies = true,
+        |m| (m.many_bodies, m.coupling) = (true, true),
+        |m| m.symmetry = true,
+        |m| m.periodic = true,
+        |m| m.dissipated_energy = m.memory(),
+    ];
+    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    let mut list = Vec::new();
+    for set in 1..8 {
+        let mut together = Method {
+            dimension,
+            kind: Kind::TotalLagrangian,
+            laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
+            hourglass: false,
+            smoothing: Smoothing::ALL[set % Smoothing::ALL.len()],
+            integrator: Integrator::Leapfrog,
+            density: Density::Continuity,
+            gradient: Gradient::Adjoint,
+            shear: true,
+            many_bodies: false,
+            coupling: false,
+            constraints: false,
+            symmetry: false,
+            periodic: false,
+            body_force: false,
+            viscosity: false,
+            xsph: false,
+            velocity_filter: false,
+            artificial_stress: None,
+            internal_energy: false,
+            dissipated_energy: false,
+            compensated: false,
+        };
+        for switch in switches {
+            let mut alone = together.clone();
+            switch(&mut alone);
+            switch(&mut together);
+            list.extend([alone, together.clone()]);
         }
     }
     list
