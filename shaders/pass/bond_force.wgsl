@@ -4,7 +4,11 @@
 //
 // Twin: src/pass/bond_force.rs
 #import invocation
+#if hourglass
 #import displacement_difference
+#else
+#import bond
+#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
