@@ -30,13 +30,35 @@ pub struct Row {
 
 /// All expectations that hold for the scene's variant.
 pub fn rows(scene: &Scene, finished: &Finished, folder: &Path) -> Result<Vec<Row>, String> {
-    let holds = |expect: &Expect| match expect.variant.as_deref() {
+    let wanted = scene.file.expect.iter().filter(|(_, e)| applies(scene, e));
+    wanted.map(|(name, expect)| row(scene, finished, folder, name, expect)).collect()
+}
+
+/// Whether an expectation holds for the scene's variant.
+pub fn applies(scene: &Scene, expect: &Expect) -> bool {
+    match expect.variant.as_deref() {
         None => true,
         Some("none") => scene.variant.is_none(),
         Some(variant) => scene.variant.as_deref() == Some(variant),
-    };
-    let wanted = scene.file.expect.iter().filter(|(_, e)| holds(e));
-    wanted.map(|(name, expect)| row(scene, finished, folder, name, expect)).collect()
+    }
+}
+
+/// How far a run ended from an expectation's value or reference, in the unit of the tolerance: a fraction where the
+/// expectation is `relative`.
+///
+/// # Errors
+/// One sentence where the run gave no number to compare, or the expectation has neither value nor reference.
+pub fn error(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &Expect) -> Result<f64, String> {
+    match (&expect.reference, expect.value) {
+        (Some(reference), _) => distance(scene, finished, &folder.join(reference), name, expect),
+        (None, Some(value)) => Ok(gap(number(scene, finished, name, expect)?, value, expect)),
+        (None, None) => Err(format!("{name}: has neither value nor reference, so that there is no error")),
+    }
+}
+
+fn gap(seen: f64, value: f64, expect: &Expect) -> f64 {
+    let gap = (seen - value).abs();
+    if gap > 0.0 && expect.relative { gap / value.abs() } else { gap }
 }
 
 /// Reads every reference that a scene names, so that a missing one shows before the run.
@@ -74,9 +96,8 @@ fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &E
         return Ok(row(seen, format!("{low} .. {high}"), because, verdict));
     }
     let value = expect.value.unwrap_or(0.0);
-    let allowed = if expect.relative { bound * value.abs() } else { bound };
     let shown = if expect.relative { format!("{} %", 100.0 * bound) } else { format!("{bound:e}") };
-    Ok(row(seen, format!("{value}"), shown, judge((seen - value).abs() <= allowed)))
+    Ok(row(seen, format!("{value}"), shown, judge(gap(seen, value, expect) <= bound)))
 }
 
 /// One number of an observable: a result, or a statistic of its series.

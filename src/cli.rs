@@ -1,5 +1,7 @@
 //! Command line: words, and the table of commands.
 
+mod study;
+
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
@@ -29,6 +31,9 @@ enum Command {
     List { scene: Option<PathBuf> },
     /// List the adapters that a run can use.
     Devices,
+    /// Sweep settings over a scene.
+    #[command(subcommand)]
+    Study(study::Study),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -182,6 +187,7 @@ pub fn main() -> i32 {
         Command::Render(args) => render(&args),
         Command::List { scene } => list(scene.as_deref()),
         Command::Devices => devices(),
+        Command::Study(what) => study::study(&what),
     };
     match result {
         Ok(code) => code,
@@ -278,11 +284,7 @@ fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
 
 /// A run that nothing is expected of would only cost time.
 fn expects_something(scene: &Scene) -> bool {
-    scene.file.expect.values().any(|expect| match expect.variant.as_deref() {
-        None => true,
-        Some("none") => scene.variant.is_none(),
-        Some(word) => scene.variant.as_deref() == Some(word),
-    })
+    scene.file.expect.values().any(|expect| check::applies(scene, expect))
 }
 
 #[cfg(feature = "hdf5")]

@@ -28,8 +28,10 @@
 //! the step loop.
 
 pub mod backend;
+pub mod bond;
 pub mod check;
 pub mod cli;
+pub mod contact;
 pub mod material;
 pub mod observable;
 pub mod output;

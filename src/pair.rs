@@ -189,32 +189,6 @@ impl<S: Space> Block<S> {
     }
 }
 
-/// A neighbour in the reference configuration.
-#[derive(Clone, Copy)]
-pub struct Bond<S: Space> {
-    pub b: usize,
-    /// Planes that the neighbour is mirrored in, one bit each.
-    pub image: u32,
-    /// X_a - X_b
-    pub x: S::Vec,
-    /// (dW/dR)/R: times x it is the gradient of W at a.
-    pub gradient: S::Real,
-}
-
-/// The neighbours of particle a in the reference configuration, in the order of its list.
-#[inline(always)]
-pub fn bonds<S: Space, K: Kernel>(state: &State<S>, a: usize) -> impl Iterator<Item = Bond<S>> {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
-    // Bodies have no bonds with each other.
-    let h = state.body(a).smoothing_length;
-    let (inverse, factor) = (S::Real::of(1.0) / h, kernel.gradient_factor(h));
-    state.neighbors_of(a).iter().map(move |&entry| {
-        let x = reference_separation(state, a, entry);
-        let gradient = kernel.gradient_at::<K>(S::inner(x, x).sqrt(), h, inverse, factor);
-        Bond { b: (entry & NEIGHBOR_MASK) as usize, image: entry >> NEIGHBOR_BITS, x, gradient }
-    })
-}
-
 /// X_a - X_b
 #[inline(always)]
 pub fn reference_separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
@@ -225,17 +199,6 @@ pub fn reference_separation<S: Space>(state: &State<S>, a: usize, entry: u32) ->
     }
     let x = state.particles.reference_position[a] - other;
     if state.method.periodic { nearest_image::<S>(&state.params, x) } else { x }
-}
-
-/// u_b - u_a, the neighbour's displacement mirrored if it is an image.
-#[inline(always)]
-pub fn displacement_difference<S: Space>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
-    let displacement = &state.particles.displacement;
-    let mut u_b = displacement[bond.b];
-    if bond.image != 0 {
-        u_b = mirror_vector::<S>(&state.params, bond.image, u_b);
-    }
-    u_b - displacement[a]
 }
 
 /// v_b - v_a, the neighbour's velocity mirrored if it is an image.

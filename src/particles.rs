@@ -154,6 +154,8 @@ fields! {
     dissipated_energy_sum: DissipatedEnergySum, Real, SPECIFIC_POWER, false, "weighted sum of the stages' dissipated powers";
     listed_displacement: ListedDisplacement, Vec, LENGTH, false, "displacement when the neighbour list was last built";
     cell: Cell, Integer, NONE, false, "index of the cell that holds the particle";
+    contact_count: ContactCount, Integer, NONE, false, "number of entries in the particle's list of contacts";
+    contact_energy: ContactEnergy, Real, [2, 1, -2], false, "the particle's half of the energy of its contacts";
     neighbor_count: NeighborCount, Integer, NONE, false, "number of entries in the particle's neighbour list";
 }
 

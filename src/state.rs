@@ -1,6 +1,8 @@
 //! Everything that the passes of a run read and write, in one precision: the CPU path steps a
 //! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
 
+use crate::bond::BondTable;
+use crate::contact::Potential;
 use crate::material::Law;
 use crate::particles::Particles;
 use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
@@ -29,6 +31,8 @@ pub struct Method {
     pub body_force: bool,
     /// Energy against motions that the deformation gradient does not see.
     pub hourglass: bool,
+    /// How surfaces touch.
+    pub contact: Option<Potential>,
     pub viscosity: bool,
     pub xsph: bool,
     pub velocity_filter: bool,
@@ -40,6 +44,10 @@ pub struct Method {
 }
 
 impl Method {
+    /// Some list must follow the particles.
+    pub fn listed_again(&self) -> bool {
+        self.kind == Kind::Eulerian || self.contact.is_some()
+    }
     /// Some law remembers more than the deformation.
     pub fn memory(&self) -> bool {
         self.laws.iter().any(|law| law.has_memory())
@@ -52,6 +60,8 @@ impl Method {
             ("solid", self.dimension == 3),
             ("total_lagrangian", self.kind == Kind::TotalLagrangian),
             ("hourglass", self.hourglass),
+            ("contact", self.contact.is_some()),
+            ("listed_again", self.listed_again()),
             ("memory", self.memory()),
             ("shear", self.shear),
             ("many_bodies", self.many_bodies),
@@ -96,6 +106,7 @@ pub struct Params<R> {
     pub plane_count: u32,
     pub body_count: u32,
     pub artificial_exponent: u32,
+    pub contact_capacity: u32,
     /// Always zero; the compiler does not know it.
     pub zero: u32,
     pub origin_x: R,
@@ -115,6 +126,10 @@ pub struct Params<R> {
     pub normalisation: R,
     /// Distance up to which pairs enter the neighbour list.
     pub reach: R,
+    /// Distance up to which pairs enter the list of contacts.
+    pub contact_reach: R,
+    /// Particles of one body touch only if they were farther apart than this.
+    pub contact_apart: R,
     /// Displacement after which the list must be built anew.
     pub slack: R,
     /// Strength of the hourglass energy, over Young's modulus.
@@ -149,6 +164,22 @@ pub struct Body<R> {
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,
+}
+
+/// How two bodies touch. Twin: `ContactPair` in `shaders/lib/params.wgsl`.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct ContactPair<R> {
+    /// Factor of the potential: an energy.
+    pub strength: R,
+    /// Distance at which it ends; 0 where the bodies do not touch.
+    pub range: R,
+}
+
+impl ContactPair<f64> {
+    pub fn map<R: Real>(&self, real: impl Fn(f64) -> R) -> ContactPair<R> {
+        ContactPair { strength: real(self.strength), range: real(self.range) }
+    }
 }
 
 /// A boundary condition. Twin: `Constraint` in `shaders/lib/params.wgsl`.
@@ -251,6 +282,8 @@ pub struct State<S: Space> {
     pub bodies: Vec<Body<S::Real>>,
     /// Weight of the kernel sums between bodies a and b at `a * body_count + b`.
     pub coupling: Vec<S::Real>,
+    /// Contact between bodies a and b at `a * body_count + b`.
+    pub contact_pairs: Vec<ContactPair<S::Real>>,
     pub constraints: Vec<Constraint<S::Real>>,
     /// Time and factor.
     pub course: Vec<[S::Real; 2]>,
@@ -264,6 +297,10 @@ pub struct State<S: Space> {
     pub cell_particles: Vec<u32>,
     /// Row of `list_capacity` entries for each particle.
     pub neighbors: Vec<u32>,
+    /// Entry k of particle a's list of contacts at `k * count + a`.
+    pub contacts: Vec<u32>,
+    /// Total Lagrangian on the CPU.
+    pub bond_table: BondTable<S>,
     /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
     pub block_bound: Vec<[S::Real; 4]>,
 }
@@ -305,6 +342,10 @@ impl<S: Space> State<S> {
     #[inline(always)]
     pub fn coupling_of(&self, a: usize, b: usize) -> S::Real {
         self.coupling[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
+    }
+    #[inline(always)]
+    pub fn contact_pair(&self, a: usize, b: usize) -> &ContactPair<S::Real> {
+        &self.contact_pairs[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
     }
     /// Factor of a boundary condition's course at an absolute time.
     pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {

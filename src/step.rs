@@ -30,6 +30,9 @@ fn stress_evolves(method: &Method) -> bool {
 fn force(method: &Method, calls: &mut Vec<Call>) {
     if method.kind == Kind::TotalLagrangian {
         calls.extend([Pass::Deform, Pass::BondForce].map(call));
+        if method.contact.is_some() {
+            calls.push(call(Pass::ContactForce));
+        }
         return;
     }
     if method.density == Density::Summation {
@@ -54,7 +57,9 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
     if method.kind == Kind::TotalLagrangian {
         order(true, &mut calls);
-        calls.push(call(Pass::CorrectReference));
+        if method.gradient != Gradient::Plain {
+            calls.push(call(Pass::CorrectReference));
+        }
     }
     calls
 }
@@ -65,7 +70,16 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
     if method.kind == Kind::Eulerian {
         order(false, &mut calls);
     }
+    find_contacts(method, &mut calls);
     calls
+}
+
+/// Lists contacts. Does nothing while the present list holds.
+fn find_contacts(method: &Method, calls: &mut Vec<Call>) {
+    if method.contact.is_some() {
+        sort(false, calls);
+        calls.push(call(Pass::FindContacts));
+    }
 }
 
 /// Passes that follow once before the first step of a run: leapfrog needs the first acceleration.
@@ -77,13 +91,15 @@ pub fn begin_run(method: &Method) -> Vec<Call> {
 
 /// One time step.
 pub fn step(method: &Method) -> Vec<Call> {
-    let mut calls = match method.integrator {
+    let mut calls = Vec::new();
+    find_contacts(method, &mut calls);
+    calls.extend(match method.integrator {
         Integrator::Leapfrog => leapfrog(method),
         Integrator::Rk2 => runge_kutta(method, &HEUN),
         Integrator::SspRk3 => runge_kutta(method, &SHU_OSHER),
         Integrator::Rk4 => runge_kutta(method, &CLASSICAL),
         Integrator::Pefrl => pefrl(method),
-    };
+    });
     if method.velocity_filter {
         calls.extend([Pass::SmoothVelocity, Pass::FilterVelocity].map(call));
     }
@@ -124,7 +140,7 @@ fn drift(part: f64) -> Call {
 /// Coefficients of Omelyan, Mryglod & Folk 2002, equation (20).
 const XI: f64 = 0.178_617_895_844_809_1;
 const LAMBDA: f64 = -0.212_341_831_062_605_4;
-const CHI: f64 = -0.066_264_582_669_818_49;
+const CHI: f64 = -0.066_264_582_669_818_5;
 
 /// Drift, kick, drift, kick … so that the errors of third order cancel.
 fn pefrl(method: &Method) -> Vec<Call> {
@@ -191,7 +207,9 @@ pub fn fields(method: &Method) -> Vec<Field> {
     let wanted = [
         (true, &[Number, ReferencePosition, ReferenceVolume, Displacement, Velocity, Acceleration][..]),
         (true, &[Cell, NeighborCount]),
-        (eulerian, &[VolumetricStrain, VelocityGradient, ListedDisplacement]),
+        (eulerian, &[VolumetricStrain, VelocityGradient]),
+        (method.listed_again(), &[ListedDisplacement]),
+        (method.contact.is_some(), &[ContactCount, ContactEnergy]),
         (!eulerian, &[DisplacementGradient, BondStress]),
         (!eulerian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
         (method.memory(), &[ViscousStrain]),

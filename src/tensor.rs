@@ -38,6 +38,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     fn exp(self) -> Self;
+    fn ln(self) -> Self;
     fn floor(self) -> Self;
     fn round(self) -> Self;
     fn powf(self, exponent: Self) -> Self;
@@ -69,6 +70,10 @@ macro_rules! real {
             #[inline(always)]
             fn exp(self) -> Self {
                 self.exp()
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                self.ln()
             }
             #[inline(always)]
             fn floor(self) -> Self {

@@ -36,8 +36,8 @@ macro_rules! assert_mirrors {
 fn params_mirror_the_shader_s() {
     assert_mirrors!(Params:
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-        artificial_exponent, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
-        body_force_x, body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
+        artificial_exponent, contact_capacity, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
+        body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
         artificial_epsilon, artificial_weight, cfl, fixed_step,
     );
     // Bound alone, in a buffer rounded up to the alignment of a vec4.

@@ -84,6 +84,7 @@ fn random_method(random: &mut Random) -> Method {
     Method {
         dimension: 1 + random.below(3),
         kind: Kind::Eulerian,
+        contact: None,
         laws: vec![Law::Elastic],
         hourglass: false,
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],

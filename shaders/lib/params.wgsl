@@ -15,6 +15,7 @@ struct Params {
     plane_count: u32,
     body_count: u32,
     artificial_exponent: u32,
+    contact_capacity: u32,
     zero: u32,
     origin_x: real,
     origin_y: real,
@@ -30,6 +31,8 @@ struct Params {
     body_force_z: real,
     normalisation: real,
     reach: real,
+    contact_reach: real,
+    contact_apart: real,
     slack: real,
     hourglass: real,
     alpha: real,
@@ -52,6 +55,11 @@ struct Body {
     relaxation: real,
     sound_speed: real,
     smoothing_length: real,
+}
+
+struct ContactPair {
+    strength: real,
+    range: real,
 }
 
 struct Constraint {

@@ -34,7 +34,8 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     let center = reference_position[a];
 #if hourglass
     let displacement_a = displacement[a];
-    let stiffness = params.hourglass * own_body.youngs_modulus;
+    // Bonds join particles of one body, so both ends have the same stiffness.
+    let stiffness = 2.0 * params.hourglass * own_body.youngs_modulus;
 #endif
     let count = neighbor_count[a];
     // Sum of the weights alone: what a's own stress is multiplied with.
@@ -47,8 +48,7 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
         own += x;
         others += mat_vec(stress_of(bond), x);
 #if hourglass
-        let both = stiffness + params.hourglass * body_of(bond.b).youngs_modulus;
-        others -= displacement_difference(displacement_a, bond) * (both * weight);
+        others -= displacement_difference(displacement_a, bond) * (stiffness * weight);
 #endif
     }
     return mat_vec(bond_stress[a], own) + others;

@@ -7,7 +7,7 @@
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
-#if !total_lagrangian
+#if listed_again
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> listed_displacement: array<Vec>;
 #endif
@@ -69,11 +69,11 @@ fn bound_of(a: u32) -> vec4<real> {
     let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
     let pull = inner(acceleration[a], acceleration[a]);
     let rate = max(signal / h, sqrt(sqrt(pull) / h));
-#if total_lagrangian
-    let moved: real = 0.0;
-#else
+#if listed_again
     let shift = displacement[a] - listed_displacement[a];
     let moved = inner(shift, shift);
+#else
+    let moved: real = 0.0;
 #endif
     let speed = inner(velocity[a], velocity[a]);
     // By the bits: a compiler may take it that no number is infinite or undefined.
@@ -118,9 +118,11 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
         next.steps_left -= 1u;
         next.steps_done += 1u;
     }
-    if next.rebuild == 1u {
-        next.lists_built += 1u;
-    }
+#if listed_again
+    next.lists_built += next.rebuild;
+#else
+    next.lists_built = 1u;
+#endif
     if next.fault == 0u {
         next.fault = u32(bound.w);
     }
@@ -141,11 +143,11 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
         step = left * 0.5;
     }
     next.step = step;
-#if total_lagrangian
-    next.rebuild = 0u;
-#else
+#if listed_again
     let ahead = sqrt(bound.y) + sqrt(bound.z) * step;
     next.rebuild = u32(ahead > params.slack);
+#else
+    next.rebuild = 0u;
 #endif
     return next;
 }

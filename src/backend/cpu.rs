@@ -1,8 +1,11 @@
 //! The CPU path: the twins, on all cores. In f64 it is the reference, and the fallback where there is no GPU.
 
 use super::{Backend, Columns};
+use crate::bond::BondTable;
 use crate::particles::{Field, Type};
 use crate::pass::{Call, Pass, Stage};
+use crate::scene::file::Kind;
+use crate::smoothing::with_kernel;
 use crate::state::{Clock, State};
 use crate::step;
 use crate::tensor::{Real, Space};
@@ -20,6 +23,18 @@ pub struct Cpu<S: Space> {
 impl<S: Space> Cpu<S> {
     pub fn new(state: State<S>) -> Self {
         Self { step: step::step(&state.method), prepared: false, state }
+    }
+
+    /// Keeps the distinct bonds, and makes what depends on them once more, so that it agrees with them to the last
+    /// digit.
+    fn tabulate(&mut self) {
+        let state = &mut self.state;
+        if state.method.kind == Kind::TotalLagrangian {
+            state.bond_table = with_kernel!(state.method.smoothing, K => BondTable::new::<K>(state));
+            let calls = step::prepare(&state.method);
+            let after: Vec<Call> = calls.into_iter().filter(|call| call.pass == Pass::CorrectReference).collect();
+            self.run(&after);
+        }
     }
 
     fn run(&mut self, calls: &[Call]) {
@@ -41,7 +56,7 @@ impl<S: Space> Backend for Cpu<S> {
         let state = &self.state;
         let columns: usize = state.particles.present().iter().map(|&f| state.particles.bytes(f).len()).sum();
         let words = state.cell_count.len() + state.cell_start.len() + state.cell_particles.len() + state.neighbors.len();
-        (columns + 4 * words) as u64
+        (columns + 4 * words + state.bond_table.bytes()) as u64
     }
 
     fn begin_segment(&mut self, start: f64, duration: f64, steps: u32, first: bool) -> Result<(), String> {
@@ -61,6 +76,7 @@ impl<S: Space> Backend for Cpu<S> {
         let method = self.state.method.clone();
         if !std::mem::replace(&mut self.prepared, true) {
             self.run(&step::prepare(&method));
+            self.tabulate();
         }
         self.run(&step::begin_segment(&method));
         if first {

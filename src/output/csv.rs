@@ -49,7 +49,7 @@ impl Series {
 }
 
 /// The fewest digits that read back as the same f64, plain where that is short.
-fn shortest(value: f64) -> String {
+pub fn shortest(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 || (1e-4..1e7).contains(&magnitude) || !value.is_finite() { format!("{value}") } else { format!("{value:e}") }
 }

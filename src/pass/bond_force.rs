@@ -10,8 +10,8 @@
 //! Twin: shaders/pass/bond_force.wgsl
 
 use super::Stage;
-use crate::pair::{bonds, displacement_difference, mirror_tensor};
-use crate::smoothing::{Kernel, with_kernel};
+use crate::bond::{Source, displacement_difference, with_bonds};
+use crate::pair::mirror_tensor;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -20,31 +20,31 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a));
+    with_bonds!(state, B => {
+        super::write(&mut accelerations, |a, slot| *slot = sum::<S, B>(state, a));
     });
     state.particles.acceleration = accelerations;
 }
 
 #[inline(always)]
-fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Vec {
+fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     let particles = &state.particles;
     // Sum of the weights alone: what a's own stress is multiplied with.
     let (mut own, mut others) = (S::Vec::default(), S::Vec::default());
     let body = state.body(a);
-    let stiffness = state.params.hourglass * body.youngs_modulus;
-    for bond in bonds::<S, K>(state, a) {
-        let weight = bond.gradient * particles.reference_volume[bond.b];
-        let x = bond.x * weight;
-        own += x;
-        let mut stress = particles.bond_stress[bond.b];
-        if bond.image != 0 {
-            stress = mirror_tensor::<S>(&state.params, bond.image, stress);
-        }
-        others += S::mat_vec(stress, x);
-        if state.method.hourglass {
-            let both = stiffness + state.params.hourglass * state.body(bond.b).youngs_modulus;
-            others = others - displacement_difference(state, a, &bond) * (both * weight);
+    // Bonds join particles of one body, so both ends have the same stiffness.
+    let stiffness = S::Real::of(2.0) * state.params.hourglass * body.youngs_modulus;
+    for block in B::blocks(state, a) {
+        for bond in block {
+            let mut stress = particles.bond_stress[bond.b];
+            if B::IMAGES && bond.image != 0 {
+                stress = mirror_tensor::<S>(&state.params, bond.image, stress);
+            }
+            own += bond.row.gradient;
+            others += S::mat_vec(stress, bond.row.gradient);
+            if state.method.hourglass {
+                others = others - displacement_difference::<S, B>(state, a, &bond) * (stiffness * bond.row.weight);
+            }
         }
     }
     (S::mat_vec(particles.bond_stress[a], own) + others) * (S::Real::of(1.0) / body.density)

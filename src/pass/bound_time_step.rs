@@ -57,7 +57,7 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
 }
 
 fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
-    let listed_once = state.particles.listed_displacement.is_empty();
+    let listed_once = !state.method.listed_again();
     let (params, clock) = (&state.params, &mut state.clock);
     // The first call of a segment finds no step behind it.
     if clock.step > S::Real::of(0.0) {
@@ -68,9 +68,7 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
         clock.steps_left -= 1;
         clock.steps_done += 1;
     }
-    if clock.rebuild == 1 {
-        clock.lists_built += 1;
-    }
+    clock.lists_built = if listed_once { 1 } else { clock.lists_built + clock.rebuild };
     if clock.fault == 0 {
         clock.fault = bound[3].f64() as u32;
     }

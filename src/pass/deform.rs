@@ -6,10 +6,9 @@
 //! end of the step.
 
 use super::Stage;
+use crate::bond::{Source, displacement_difference, with_bonds};
 use crate::material;
-use crate::pair::{bonds, displacement_difference};
 use crate::scene::file::Gradient;
-use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -19,8 +18,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     let before = if state.method.memory() && state.method.dissipated_energy { gradients.clone() } else { Vec::new() };
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut gradients, |a, slot| *slot = displacement_gradient::<S, K>(state, a));
+    with_bonds!(state, B => {
+        super::write(&mut gradients, |a, slot| {
+            *slot = sum_bonds::<S, B>(state, a);
+            *slot = corrected(state, a, slot);
+        });
     });
     state.particles.displacement_gradient = gradients;
     relax(state, &before);
@@ -49,29 +51,30 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
 }
 
 #[inline(always)]
-fn displacement_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for bond in bonds::<S, K>(state, a) {
-        let weight = bond.gradient * state.particles.reference_volume[bond.b];
-        sum += S::outer(displacement_difference(state, a, &bond), bond.x * weight);
+    for block in B::blocks(state, a) {
+        for bond in block {
+            sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
+        }
     }
-    corrected(state, a, sum)
+    sum
 }
 
-/// M K_a^-1
-#[inline(always)]
-fn corrected<S: Space>(state: &State<S>, a: usize, m: S::Mat) -> S::Mat {
+/// M K_a^-1. Out of line, so that the sums of the loop over bonds stay in vector registers.
+#[inline(never)]
+fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::Mat {
     if state.method.gradient == Gradient::Plain {
-        return m;
+        return *m;
     }
-    S::mat_mat(m, S::mat_of_sym(state.particles.reference_correction[a]))
+    S::mat_mat(*m, S::mat_of_sym(state.particles.reference_correction[a]))
 }
 
 #[inline(always)]
 fn bond_stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let (body, gradient) = (state.body(a), state.particles.displacement_gradient[a]);
     let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
-    let stress = corrected(state, a, material::first_piola::<S>(body, gradient, memory));
+    let stress = corrected(state, a, &material::first_piola::<S>(body, gradient, memory));
     if !state.method.hourglass {
         return stress;
     }

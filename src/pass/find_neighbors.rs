@@ -71,7 +71,7 @@ fn list_one<S: Space>(state: &State<S>, a: usize, row: &mut [u32], stage: Stage)
 
 /// Calls `visit` with every particle of the cells around a point, until it returns None.
 #[inline(always)]
-fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl FnMut(u32) -> Option<()>) -> Option<()> {
+pub fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl FnMut(u32) -> Option<()>) -> Option<()> {
     let params = &state.params;
     let [cx, cy, cz] = cell_of::<S>(params, center);
     let range = |c: u32, cells: u32, period: S::Real, axis: usize| {

@@ -6,12 +6,14 @@
 mod bin_cells;
 mod bond_force;
 mod bound_time_step;
+mod contact_force;
 mod correct_gradient;
 mod correct_reference;
 mod deform;
 mod drift;
 mod fill_cells;
 mod filter_velocity;
+mod find_contacts;
 mod find_neighbors;
 mod force;
 mod kick;
@@ -152,12 +154,21 @@ passes! {
     correct_reference: CorrectReference, [main: Listed], "inverse of the first moment of the kernel gradient in the reference configuration";
     deform: Deform, [main: Listed], "deformation gradient, stress, and what the bonds carry of it";
     bond_force: BondForce, [main: Listed], "acceleration by the bonds of the reference configuration";
+    find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";
+    contact_force: ContactForce, [main: Particles], "adds the acceleration by contact";
     smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";
     filter_velocity: FilterVelocity, [main: Particles], "puts the smoothed velocity in the velocity's place";
     kick: Kick, [main: Particles], "advances the velocity by a part of the step";
     drift: Drift, [main: Particles], "advances the displacement by a part of the step";
     runge_kutta: RungeKutta, [main: Particles], "adds a stage's rates and sets the next stage's state";
     bound_time_step: BoundTimeStep, [blocks: ReductionBlocks, advance: One], "advances the clock; finds the next step, whether the list still holds, and faults";
+}
+
+impl Pass {
+    /// Whether it sums the forces on the particles: by the number of such passes the cost of integrators is compared.
+    pub fn is_force(self) -> bool {
+        matches!(self, Pass::Force | Pass::BondForce)
+    }
 }
 
 /// Particles of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.

@@ -5,7 +5,7 @@ mod files;
 mod summary;
 
 pub use files::{Files, folder};
-pub use summary::Summary;
+pub use summary::{Stopwatch, Summary};
 
 use checkpoint::Checkpoint;
 
@@ -18,7 +18,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// What the command line asks of a run.
 #[derive(Debug, Clone, Default)]
@@ -147,7 +146,7 @@ struct Run<'a> {
     steps: u32,
     lists: u32,
     bar: ProgressBar,
-    begin: Instant,
+    watch: Stopwatch,
 }
 
 impl<'a> Run<'a> {
@@ -177,7 +176,7 @@ impl<'a> Run<'a> {
             steps: 0,
             lists: 0,
             bar,
-            begin: Instant::now(),
+            watch: Stopwatch::start(),
         }
     }
 
@@ -285,8 +284,8 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
-        let summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.begin.elapsed())
-            .map_err(|e| self.fail(&e))?;
+        let summary =
+            Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, &self.watch).map_err(|e| self.fail(&e))?;
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

@@ -1,11 +1,25 @@
 //! What a scene used and cost.
 
 use crate::backend::Backend;
+use crate::backend::cpu::processor_seconds;
 use crate::particles::Field;
 use crate::scene::Scene;
 use crate::step;
 use serde_json::json;
-use std::time::Duration;
+use std::time::Instant;
+
+/// Began with the run's first step, when the backend was open.
+pub struct Stopwatch {
+    begin: Instant,
+    /// Of this process before.
+    processor: f64,
+}
+
+impl Stopwatch {
+    pub fn start() -> Self {
+        Self { begin: Instant::now(), processor: processor_seconds() }
+    }
+}
 
 /// Cost of a run.
 #[derive(Debug, Clone)]
@@ -19,11 +33,24 @@ pub struct Summary {
     pub passes: Vec<&'static str>,
     pub fields: Vec<&'static str>,
     pub bytes: u64,
+    /// Of wall time.
     pub seconds: f64,
+    /// On all threads of this process, a software driver's too.
+    pub processor_seconds: f64,
+    /// Steps times the force passes of a step.
+    pub force_evaluations: u64,
 }
 
 impl Summary {
-    pub fn new(scene: &Scene, backend: &mut dyn Backend, steps: u32, lists_built: u32, wall: Duration) -> Result<Self, String> {
+    pub fn new(
+        scene: &Scene,
+        backend: &mut dyn Backend,
+        steps: u32,
+        lists_built: u32,
+        watch: &Stopwatch,
+    ) -> Result<Self, String> {
+        let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
+        let forces = step::step(&scene.method).iter().filter(|call| call.pass.is_force()).count() as u64;
         let counts = backend.fetch(&[Field::NeighborCount])?;
         let particles = scene.particles.len();
         Ok(Self {
@@ -35,7 +62,9 @@ impl Summary {
             passes: step::passes(&scene.method).iter().map(|p| p.name()).collect(),
             fields: step::fields(&scene.method).iter().map(|f| f.name()).collect(),
             bytes: backend.bytes(),
-            seconds: wall.as_secs_f64(),
+            seconds,
+            processor_seconds,
+            force_evaluations: u64::from(steps) * forces,
         })
     }
 
@@ -66,7 +95,8 @@ impl Summary {
             "scene": scene.name, "variant": scene.variant, "title": scene.file.title, "version": env!("CARGO_PKG_VERSION"),
             "device": self.device, "particles": self.particles, "neighbors": self.neighbors, "steps": self.steps,
             "lists_built": self.lists_built, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
-            "seconds": self.seconds, "particle_updates_per_second": self.updates_per_second(),
+            "seconds": self.seconds, "processor_seconds": self.processor_seconds,
+            "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
         });
         format!("{value:#}\n")
     }

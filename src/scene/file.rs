@@ -5,6 +5,7 @@
 
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
+use crate::contact::Potential;
 use crate::material::Law;
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
@@ -54,6 +55,8 @@ pub struct File {
     pub observe: BTreeMap<String, Observe>,
     #[serde(default)]
     pub expect: BTreeMap<String, Expect>,
+    #[serde(default)]
+    pub study: Study,
     /// Named sets of changes; see [`super::read`]. Kept as typed: each is merged into the file and read again.
     #[serde(default)]
     pub variant: BTreeMap<String, toml::Table>,
@@ -288,13 +291,26 @@ pub enum ArtificialSpacing {
     Given(f64),
 }
 
-/// What acts between two bodies through the kernel sums.
+/// What acts between two bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     pub between: [String; 2],
-    /// 1: as if one body; 0: not at all; between: weakened.
-    pub kernel: f64,
+    /// 1: as if one body; 0: not at all; between: weakened. Eulerian only; 1 unless given.
+    pub kernel: Option<f64>,
+    /// Repulsion of particles that come close; a body may be named twice, to touch itself.
+    pub potential: Option<PairPotential>,
+}
+
+/// U = strength phi(r/range) for each pair of particles.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairPotential {
+    pub law: Potential,
+    /// Strength over Young's modulus times the volume of a cube of one spacing.
+    pub stiffness: f64,
+    /// In spacings.
+    pub range: f64,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -484,4 +500,12 @@ pub enum Statistic {
     Mean,
     /// Largest distance from the first value.
     Drift,
+}
+
+/// What the studies of `lithosph study` vary.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Study {
+    /// Override paths in quotes, and the values that each takes: `"time.cfl" = [0.2, 0.4]`.
+    pub accuracy: Option<BTreeMap<String, Vec<toml::Value>>>,
 }

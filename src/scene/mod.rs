@@ -4,6 +4,7 @@ mod carve;
 mod check;
 mod clip;
 pub mod file;
+mod neighbors;
 pub mod packing;
 pub mod read;
 mod resolve;
@@ -13,9 +14,10 @@ mod state;
 mod words;
 
 use crate::material::Law;
-use crate::state::Method;
+use crate::state::{ContactPair, Method};
 use glam::DVec3;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -30,6 +32,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Weight of the kernel sums between bodies a and b.
     pub coupling: Vec<Vec<f64>>,
+    /// How bodies a and b touch.
+    pub contacts: Vec<Vec<ContactPair<f64>>>,
     pub constraints: Vec<Constraint>,
     /// In order of their numbers.
     pub particles: Vec<Particle>,
@@ -38,6 +42,8 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     /// Spacing at which the artificial stress has its nominal strength.
     pub artificial_spacing: f64,
+    /// Most neighbours of a particle in the reference configuration, found when first asked for.
+    pub(crate) most_bonds: OnceLock<u32>,
 }
 
 /// A body's numbers.
@@ -102,8 +108,13 @@ pub struct Plane {
 impl Scene {
     /// Reads and resolves a scene file. Errors are one sentence with file and line.
     pub fn open(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
+        Self::open_text(&read::text_of(path)?, path, variant, overrides)
+    }
+
+    /// The same from a text that was read from the file before.
+    pub fn open_text(text: &str, path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
         let name = path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
-        resolve::resolve(name, read::read(path, variant, overrides)?)
+        resolve::resolve(name, read::read_text(text, &path.display().to_string(), variant, overrides)?)
     }
 
     /// The same from text.

@@ -6,8 +6,9 @@ use super::read::{Read, Source, hint};
 use super::shape::used;
 use super::{Body, Constraint, Particle, Plane, Scene, file};
 use crate::material::Law;
-use crate::state::Method;
+use crate::state::{ContactPair, Method};
 use glam::DVec3;
+use std::sync::OnceLock;
 
 pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let Read { file, source, variant, resolved_text: text, .. } = read;
@@ -17,12 +18,27 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let mut particles = pack(&file, &bodies, &refuse)?;
     let constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
     let coupling = coupling(&file, &bodies, &refuse)?;
+    let contacts = contacts(&file, &bodies, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
     let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
     let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
-    let scene =
-        Scene { name, variant, file, text, method, bodies, coupling, constraints, particles, period, planes, artificial_spacing };
+    let scene = Scene {
+        name,
+        variant,
+        file,
+        text,
+        method,
+        bodies,
+        coupling,
+        contacts,
+        constraints,
+        particles,
+        period,
+        planes,
+        artificial_spacing,
+        most_bonds: OnceLock::new(),
+    };
     crate::observable::check(&scene, |path, message| refuse.at(path, message))?;
     Ok(scene)
 }
@@ -331,11 +347,51 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
                 .ok_or_else(|| refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))))
         };
         let (a, b) = (index(&contact.between[0])?, index(&contact.between[1])?);
-        refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;
-        refuse.unless((0.0..=1.0).contains(&contact.kernel), &["contact", &at, "kernel"], || {
-            format!("kernel must lie between 0 (off) and 1 (as one body), found {}", contact.kernel)
+        refuse.unless(contact.kernel.is_some() || contact.potential.is_some(), &["contact", &at], || {
+            "a contact needs kernel or potential".into()
         })?;
-        (table[a][b], table[b][a]) = (contact.kernel, contact.kernel);
+        let Some(kernel) = contact.kernel else { continue };
+        refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;
+        refuse.unless((0.0..=1.0).contains(&kernel), &["contact", &at, "kernel"], || {
+            format!("kernel must lie between 0 (off) and 1 (as one body), found {kernel}")
+        })?;
+        refuse.unless(apart > 0.0 || kernel == 0.0, &["contact", &at, "kernel"], || {
+            "Total Lagrangian bodies have no kernel sums with each other: kernel must be 0".into()
+        })?;
+        (table[a][b], table[b][a]) = (kernel, kernel);
+    }
+    Ok(table)
+}
+
+/// Pair potentials between bodies; [`coupling`] has looked at the names.
+fn contacts(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
+    let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
+    let named = file.contact.iter().enumerate().filter_map(|(k, contact)| Some((k, contact, contact.potential.as_ref()?)));
+    let mut law = None;
+    for (k, contact, potential) in named {
+        let at = k.to_string();
+        let path = ["contact", &at, "potential"];
+        refuse.unless(file.formulation.kind == Kind::TotalLagrangian, &path, || {
+            "contact by a potential needs formulation.kind `total_lagrangian`".into()
+        })?;
+        refuse.unless(file.symmetry.is_empty(), &path, || {
+            "contact by a potential does not see mirror images: no [[symmetry]]".into()
+        })?;
+        refuse.unless(*law.get_or_insert(potential.law) == potential.law, &path, || {
+            "all contacts of a scene share one law".into()
+        })?;
+        for (key, value) in [("stiffness", potential.stiffness), ("range", potential.range)] {
+            refuse.unless(value > 0.0 && value.is_finite(), &["contact", &at, "potential", key], || {
+                format!("{key} must be a positive number, found {value}")
+            })?;
+        }
+        let index = |word: &String| bodies.iter().position(|b| &b.name == word).unwrap_or(0);
+        let (a, b) = (index(&contact.between[0]), index(&contact.between[1]));
+        let spacing = 0.5 * (bodies[a].spacing + bodies[b].spacing);
+        let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
+        let strength = potential.stiffness * modulus * spacing.powi(file.dimension as i32);
+        let pair = ContactPair { strength, range: potential.range * spacing };
+        (table[a][b], table[b][a]) = (pair, pair);
     }
     Ok(table)
 }
@@ -409,6 +465,7 @@ fn method(
         symmetry: !planes.is_empty(),
         periodic: period.iter().any(|&p| p > 0.0),
         body_force,
+        contact: file.contact.iter().find_map(|contact| contact.potential.as_ref()).map(|p| p.law),
         viscosity: f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0),
         xsph: f.xsph.is_some_and(|w| w > 0.0),
         velocity_filter: f.velocity_filter.is_some_and(|w| w > 0.0),

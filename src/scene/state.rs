@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::file::{Kind, Viscosity};
+use crate::bond::BondTable;
 use crate::particles::{Field, Particles, Type};
 use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
@@ -10,6 +11,11 @@ use glam::DVec3;
 
 /// Cells may outnumber particles this many times before they are made larger.
 const CELLS_PER_PARTICLE: usize = 4;
+
+/// Particles of one body touch only if they were more than so many spacings apart.
+const CONTACT_APART: f64 = 3.0;
+/// Margin of the list of contacts over h: wide, since the list is empty but for where surfaces meet.
+const CONTACT_MARGIN: f64 = 1.0;
 
 /// Keeps the viscosity of a particle on a mirror plane and its own image from being 0/0; lost in rounding elsewhere.
 const LEAST_SOFTENING: f64 = 1e-9;
@@ -29,6 +35,7 @@ impl Scene {
             clock: Clock::default(),
             bodies: self.bodies.iter().map(super::Body::numbers).collect(),
             coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
+            contact_pairs: self.contacts.iter().flatten().map(|pair| pair.map(real)).collect(),
             constraints: Vec::new(),
             course: Vec::new(),
             cell_count: vec![0; cells],
@@ -36,6 +43,8 @@ impl Scene {
             cell_block: vec![0; cells.div_ceil(SCAN_BLOCK)],
             cell_particles: vec![0; count],
             neighbors: vec![0; count * params.list_capacity as usize],
+            contacts: vec![0; count * params.contact_capacity as usize],
+            bond_table: BondTable::default(),
             block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
         };
         self.fill_constraints(&mut state);
@@ -53,7 +62,8 @@ impl Scene {
         };
         let columns: usize = step::fields(&method).into_iter().map(bytes).sum();
         let params = self.params::<f64>();
-        let particle = (columns + 4 * (1 + params.list_capacity as usize)) as u64;
+        let lists = params.list_capacity + params.contact_capacity;
+        let particle = (columns + 4 * (1 + lists as usize)) as u64;
         particle * self.particles.len() as u64 + 8 * u64::from(params.cell_total)
     }
 
@@ -115,13 +125,36 @@ impl Scene {
     }
 
     fn reach(&self) -> f64 {
-        let margin = if self.method.kind == Kind::TotalLagrangian { 0.0 } else { self.file.list_margin() };
-        self.smoothing_length() * (2.0 + margin)
+        let margin = if self.method.kind == Kind::TotalLagrangian { 0.0 } else { self.margin() };
+        2.0 * self.smoothing_length() + margin
     }
 
-    /// Entries a neighbour list needs: what the densest packing holds within reach, and half as much again
+    /// How far beyond the range of what acts the list that follows the particles reaches.
+    fn margin(&self) -> f64 {
+        let usual = if self.method.contact.is_some() { CONTACT_MARGIN } else { self.file.list_margin() };
+        self.file.formulation.list_margin.unwrap_or(usual) * self.smoothing_length()
+    }
+
+    /// Distance up to which pairs enter the list of contacts; 0 where nothing touches.
+    fn contact_reach(&self) -> f64 {
+        let range = self.contacts.iter().flatten().map(|pair| pair.range).fold(0.0, f64::max);
+        if range > 0.0 { range + self.margin() } else { 0.0 }
+    }
+
+    /// Entries that a list of contacts can hold: the half space within reach, crowded.
+    fn contact_capacity(&self) -> u32 {
+        let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
+        let q = self.contact_reach() / spacing;
+        let inside = [2.0 * q, std::f64::consts::PI * q * q, 4.0 / 3.0 * std::f64::consts::PI * q * q * q][self.dimension() - 1];
+        if q > 0.0 { inside as u32 + 16 } else { 0 }
+    }
+
+    /// Entries a neighbour list needs. Total Lagrangian: what there is. Eulerian: what the densest packing holds within reach, and half as much again
     /// (twice in the plane, where clumps form more easily), since Eulerian particles may crowd.
     fn list_capacity(&self) -> u32 {
+        if self.method.kind == Kind::TotalLagrangian {
+            return *self.most_bonds.get_or_init(|| self.most_neighbors(self.reach()).max(1));
+        }
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
         let q = self.reach() / spacing;
         let (inside, crowding) = match self.dimension() {
@@ -161,6 +194,7 @@ impl Scene {
             plane_count: self.planes.len() as u32,
             body_count: self.bodies.len() as u32,
             artificial_exponent: f.artificial_stress.as_ref().map_or(0, |a| a.exponent),
+            contact_capacity: self.contact_capacity(),
             zero: 0,
             origin_x: real(origin[0]),
             origin_y: real(origin[1]),
@@ -176,7 +210,9 @@ impl Scene {
             body_force_z: component(2),
             normalisation: real(f.smoothing.normalisation(self.dimension())),
             reach: real(self.reach()),
-            slack: real(0.5 * self.file.list_margin() * self.smoothing_length()),
+            contact_reach: real(self.contact_reach()),
+            contact_apart: real(CONTACT_APART * self.bodies.iter().map(|b| b.spacing).fold(0.0, f64::max)),
+            slack: real(0.5 * self.margin()),
             hourglass: real(self.file.formulation.hourglass()),
             alpha: real(viscosity.alpha),
             beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
@@ -196,7 +232,7 @@ impl Scene {
         let length = (high - low).max(DVec3::ZERO);
         let most = (CELLS_PER_PARTICLE * self.particles.len()).max(1 << 12);
         // A little more than the reach, so that rounding cannot put a pair two cells apart.
-        let mut side = self.reach() * 1.001;
+        let mut side = self.reach().max(self.contact_reach()) * 1.001;
         loop {
             let (mut origin, mut size, mut cells) = ([0.0; 3], [side; 3], [1u32; 3]);
             for k in 0..self.dimension() {

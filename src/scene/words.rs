@@ -33,7 +33,11 @@ const UNTAGGED: [(&str, &str); 2] = [
 ];
 
 /// Tables that someone may take for lists of tables.
-const TABLES: [&str; 7] = ["formulation", "viscosity", "artificial_stress", "time", "output", "picture", "select"];
+const TABLES: [&str; 9] =
+    ["formulation", "potential", "viscosity", "artificial_stress", "time", "output", "picture", "select", "study"];
+
+/// What belongs under `[study.accuracy]`; a path without its quotes makes a table.
+const STUDIED: &str = "a list of values under a path in quotes such as `\"time.cfl\" = [0.2, 0.4]`";
 
 /// What lists hold that hold no numbers.
 const LISTS: [(&str, &str); 14] = [
@@ -220,6 +224,7 @@ fn wanted(message: &str, path: &[String]) -> Option<String> {
         "a boolean" => "true or false".to_string(),
         "a string" => "a string".to_string(),
         "a sequence" if path.first().is_some_and(|table| table == "boundary") && own == "velocity" => UNTAGGED[1].1.to_string(),
+        "a sequence" if path.first().is_some_and(|table| table == "study") => STUDIED.to_string(),
         "a sequence" => look_up(&LISTS, own).unwrap_or("a list of numbers").to_string(),
         "a map" => "a table".to_string(),
         _ if expected.starts_with("struct") || expected.contains("struct variant") => "a table".to_string(),

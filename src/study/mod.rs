@@ -1,4 +1,5 @@
 //! Theory and sweeps that runs are compared with.
 
+pub mod accuracy;
 pub mod eigen;
 pub mod von_neumann;

@@ -5,7 +5,7 @@ use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;
 use lithosph::particles::{Field, Particles, Type};
-use lithosph::state::{Body, Clock, Constraint, Params, SCAN_BLOCK, State};
+use lithosph::state::{Body, Clock, Constraint, ContactPair, Params, SCAN_BLOCK, State};
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
@@ -111,6 +111,13 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         cell_block: from.cell_block.clone(),
         cell_particles: from.cell_particles.clone(),
         neighbors: from.neighbors.clone(),
+        contacts: from.contacts.clone(),
+        contact_pairs: from
+            .contact_pairs
+            .iter()
+            .map(|p| ContactPair { strength: real(p.strength), range: real(p.range) })
+            .collect(),
+        bond_table: Default::default(),
         block_bound: from.block_bound.iter().map(|bound| bound.map(real)).collect(),
     }
 }

@@ -3,7 +3,7 @@
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
 use crate::particles::{Field, Type};
-use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Body, Clock, Constraint, ContactPair, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::Space;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
@@ -18,7 +18,7 @@ macro_rules! plain {
         unsafe impl Pod for $name<f32> {}
     )* };
 }
-plain!(Params, Body, Constraint, Clock);
+plain!(Params, Body, Constraint, ContactPair, Clock);
 
 /// Bytes of the smallest buffer: no shader's element is larger.
 const SMALLEST: u64 = 64;
@@ -206,6 +206,8 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
     let mut list = vec![
         table("clock", bytes_of(&state.clock), 0),
         table("bodies", cast_slice(&state.bodies), 0),
+        table("contact_pairs", cast_slice(&state.contact_pairs), 0),
+        table("contacts", cast_slice(&state.contacts), 0),
         table("coupling", cast_slice(&state.coupling), 0),
         table("constraints", cast_slice(&state.constraints), 0),
         table("course", cast_slice(&state.course), 0),

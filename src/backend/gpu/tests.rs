@@ -4,9 +4,8 @@
 use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
-use crate::material::Law;
 use crate::particles::Particles;
-use crate::scene::file::{Density, Gradient, Integrator, Kind};
+use crate::scene::file::{Density, Gradient, Integrator};
 use crate::smoothing::Smoothing;
 use crate::state::{Body, Method, REDUCTION_BLOCK, SCAN_BLOCK};
 use crate::tensor::{Plane, Tuple};
@@ -14,9 +13,10 @@ use crate::tensor::{Plane, Tuple};
 fn method() -> Method {
     Method {
         dimension: 2,
-        kind: Kind::Eulerian,
-        laws: vec![Law::Elastic],
+        kind: Default::default(),
+        laws: vec![Default::default()],
         hourglass: false,
+        contact: None,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,
         density: Density::Continuity,
@@ -85,6 +85,9 @@ fn state(side: usize) -> State<Plane<f32>> {
         cell_block: Vec::new(),
         cell_particles: Vec::new(),
         neighbors: Vec::new(),
+        bond_table: Default::default(),
+        contacts: Vec::new(),
+        contact_pairs: Vec::new(),
         block_bound: Vec::new(),
     }
 }

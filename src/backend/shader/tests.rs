@@ -3,7 +3,7 @@
 use super::*;
 
 fn composed(source: &str, flags: &[&str]) -> String {
-    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", laws: &[] })
+    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", potential: "", laws: &[] })
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn reflection_tells_what_each_entry_point_uses() {
 }
 
 fn methods() -> Vec<Method> {
-    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
+    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
     use crate::smoothing::Smoothing;
     let switches: [fn(&mut Method); 13] = [
         |_| (),
@@ -90,9 +90,10 @@ fn methods() -> Vec<Method> {
         for k in 0..2 * 2 * 3 * 3 * 2 {
             let mut method = Method {
                 dimension,
-                kind: Kind::Eulerian,
-                laws: vec![Law::Elastic],
+                kind: Default::default(),
+                laws: vec![Default::default()],
                 hourglass: false,
+                contact: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
@@ -145,6 +146,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         let mut together = Method {
             dimension,
             kind: Kind::TotalLagrangian,
+            contact: None,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
             hourglass: false,
             smoothing: Smoothing::ALL[set % Smoothing::ALL.len()],

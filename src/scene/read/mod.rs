@@ -117,7 +117,11 @@ impl Source {
     }
 }
 
-fn text_of(path: &Path) -> Result<String, String> {
+/// The text of a scene file.
+///
+/// # Errors
+/// One sentence that begins with the file.
+pub fn text_of(path: &Path) -> Result<String, String> {
     let name = path.display();
     let bytes = std::fs::read(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => format!("{name}: no such file"),

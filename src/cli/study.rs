@@ -1,0 +1,84 @@
+//! `lithosph study`: its words.
+
+use super::say;
+use crate::backend::Choice;
+use crate::run::Stop;
+use crate::study::accuracy::{self, Request};
+use clap::{Args, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Study {
+    /// Run a scene over a matrix of settings; write the error and the cost of each run as a row of a CSV.
+    ///
+    /// The matrix is the product of all --vary, else that of the scene's table `[study.accuracy]`, else of some
+    /// smoothing lengths, integrators and Courant numbers. The same command goes on where a kill left it.
+    Accuracy(AccuracyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AccuracyArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    /// An axis of the matrix: `--vary formulation.smoothing_length=1.2,1.3,1.5`. May be given several times.
+    #[arg(long, value_name = "PATH=V1,V2")]
+    vary: Vec<String>,
+    /// Where each setting runs, one or more.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "cpu")]
+    backend_list: Vec<PlaceWord>,
+    /// Measure the error of this expectation alone; of all with a value or a reference unless given.
+    #[arg(long, value_name = "NAME")]
+    observable: Option<String>,
+    /// Runs of each setting, each a row; the table at the end keeps the cheapest.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeats: u32,
+    /// The CSV; out/study/SCENE[-VARIANT]-accuracy.csv unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Begin anew and overwrite the CSV.
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+enum PlaceWord {
+    /// The CPU path in f64.
+    Cpu,
+    /// The CPU path in f32.
+    Cpu32,
+    /// Any adapter, a software one too.
+    Gpu,
+}
+
+impl PlaceWord {
+    fn choice(self) -> Choice {
+        match self {
+            Self::Cpu => Choice::Cpu,
+            Self::Cpu32 => Choice::Cpu32,
+            Self::Gpu => Choice::Gpu(None),
+        }
+    }
+}
+
+/// Does a study; gives the exit code.
+pub(super) fn study(study: &Study) -> Result<i32, Stop> {
+    let Study::Accuracy(args) = study;
+    let mut places = args.backend_list.clone();
+    places.sort_unstable();
+    places.dedup();
+    let request = Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        vary: args.vary.clone(),
+        backends: places.into_iter().map(PlaceWord::choice).collect(),
+        observable: args.observable.clone(),
+        repeats: args.repeats,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    let study = accuracy::Study::plan(&request).map_err(Stop::Refused)?;
+    say(&study.announcement());
+    say(&study.run()?);
+    Ok(0)
+}

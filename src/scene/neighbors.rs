@@ -1,0 +1,90 @@
+//! How many neighbours a particle has in the reference configuration: the exact length of a neighbour list that is
+//! made once.
+
+use super::{Plane, Scene};
+use glam::{DVec3, IVec3};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Rounding in f32 may put a pair at the very end of the reach inside.
+const ROUNDING: f64 = 1.0 + 1e-5;
+
+impl Scene {
+    /// Most particles of its own body that any particle has within a distance, mirror images included.
+    pub(super) fn most_neighbors(&self, reach: f64) -> u32 {
+        let reach = reach * ROUNDING;
+        let grid = Grid::new(self, reach);
+        let count = |i: usize| {
+            let x = self.particles[i].position;
+            let images = (0..1u32 << self.planes.len()).map(|image| mirrored(&self.planes, image, x));
+            images.map(|x| grid.count(self, x, self.particles[i].body)).sum::<u32>() - 1
+        };
+        (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
+    }
+}
+
+fn mirrored(planes: &[Plane], image: u32, mut x: DVec3) -> DVec3 {
+    for (k, plane) in planes.iter().enumerate() {
+        if image >> k & 1 == 1 {
+            x -= plane.normal * (2.0 * (x.dot(plane.normal) - plane.offset));
+        }
+    }
+    x
+}
+
+/// Particles by cells at least as wide as the reach.
+struct Grid {
+    reach: f64,
+    side: DVec3,
+    /// Cells along each periodic axis, 0 where it is open.
+    wrap: IVec3,
+    period: DVec3,
+    cells: HashMap<IVec3, Vec<u32>>,
+}
+
+impl Grid {
+    fn new(scene: &Scene, reach: f64) -> Self {
+        let period = DVec3::from_array(scene.period);
+        let wrap = (period / reach).floor().as_ivec3();
+        let divided = |k: usize| if wrap[k] > 0 { period[k] / f64::from(wrap[k]) } else { reach };
+        let side = DVec3::new(divided(0), divided(1), divided(2));
+        let mut grid = Self { reach, side, wrap, period, cells: HashMap::new() };
+        for (i, particle) in scene.particles.iter().enumerate() {
+            let cell = grid.wrapped((particle.position / side).floor().as_ivec3());
+            grid.cells.entry(cell).or_default().push(i as u32);
+        }
+        grid
+    }
+
+    fn wrapped(&self, cell: IVec3) -> IVec3 {
+        let axis = |k: usize| if self.wrap[k] > 0 { cell[k].rem_euclid(self.wrap[k]) } else { cell[k] };
+        IVec3::new(axis(0), axis(1), axis(2))
+    }
+
+    /// Particles of a body within reach of a point.
+    fn count(&self, scene: &Scene, x: DVec3, body: u32) -> u32 {
+        let center = (x / self.side).floor().as_ivec3();
+        let range = |k: usize| if k < scene.dimension() { -1..=1 } else { 0..=0 };
+        let mut found = 0;
+        for dz in range(2) {
+            for dy in range(1) {
+                for dx in range(0) {
+                    let cell = self.wrapped(center + IVec3::new(dx, dy, dz));
+                    let near = |&&i: &&u32| {
+                        let other = &scene.particles[i as usize];
+                        other.body == body && self.distance(x, other.position) < self.reach
+                    };
+                    found += self.cells.get(&cell).map_or(0, |list| list.iter().filter(near).count()) as u32;
+                }
+            }
+        }
+        found
+    }
+
+    /// To the nearest periodic image.
+    fn distance(&self, a: DVec3, b: DVec3) -> f64 {
+        let apart = a - b;
+        let axis = |k: usize| if self.period[k] > 0.0 { self.period[k] * (apart[k] / self.period[k]).round() } else { 0.0 };
+        (apart - DVec3::new(axis(0), axis(1), axis(2))).length()
+    }
+}
