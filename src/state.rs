@@ -50,7 +50,7 @@ impl Method {
     }
     /// Some law remembers more than the deformation.
     pub fn memory(&self) -> bool {
-        self.laws.contains(&Law::Maxwell)
+        self.laws.iter().any(|law| law.has_memory())
     }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {

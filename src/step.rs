@@ -57,7 +57,9 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
     if method.kind == Kind::TotalLagrangian {
         order(true, &mut calls);
-        calls.push(call(Pass::CorrectReference));
+        if method.gradient != Gradient::Plain {
+            calls.push(call(Pass::CorrectReference));
+        }
         if method.gradient == Gradient::Quadratic {
             calls.push(call(Pass::CorrectQuadratic));
         }

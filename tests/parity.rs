@@ -99,16 +99,20 @@ fn passes_agree_in_three_dimensions() {
 
 /// Every word that any method can have.
 fn all_flags() -> BTreeSet<&'static str> {
-    use lithosph::scene::file::{ArtificialForm, Density, Gradient};
+    use lithosph::material::Law;
+    use lithosph::scene::file::{ArtificialForm, Density, Gradient, Kind};
     let mut words = BTreeSet::new();
-    for (dimension, density, form) in [
-        (1, Density::Continuity, ArtificialForm::Scalar),
-        (2, Density::Summation, ArtificialForm::Principal),
-        (3, Density::Continuity, ArtificialForm::Scalar),
+    for (dimension, density, form, kind) in [
+        (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
+        (2, Density::Summation, ArtificialForm::Principal, Kind::TotalLagrangian),
+        (3, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
     ] {
         let method = Method {
             dimension,
             density,
+            kind,
+            laws: vec![Law::NeoHookean, Law::Maxwell],
+            hourglass: true,
             gradient: Gradient::Adjoint,
             shear: true,
             many_bodies: true,
@@ -192,7 +196,7 @@ fn faults(adapter: &wgpu::Adapter, case: &Case, tamper: impl Fn(&mut State<Plane
     let mut gpu = Gpu::new(adapter, &twin).unwrap();
     upload(&mut gpu, &twin);
     let mut seen = twin.clone();
-    let mut calls = step::begin_segment();
+    let mut calls = step::begin_segment(&twin.method);
     calls.push(Call { pass: Pass::BoundTimeStep, stage: Stage::default() });
     gpu.run_calls(&calls).unwrap();
     download(&gpu, &mut seen, &["clock"]);

@@ -5,8 +5,9 @@ mod common;
 
 use common::Random;
 use lithosph::backend::shader::{Shader, compose};
+use lithosph::material::Law;
 use lithosph::scene::Scene;
-use lithosph::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+use lithosph::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use lithosph::smoothing::Smoothing;
 use lithosph::state::Method;
 use lithosph::step;
@@ -82,6 +83,10 @@ fn random_method(random: &mut Random) -> Method {
     let xsph = random.coin();
     Method {
         dimension: 1 + random.below(3),
+        kind: Kind::Eulerian,
+        contact: None,
+        laws: vec![Law::Elastic],
+        hourglass: false,
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],
         integrator: [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)],
         density: [Density::Continuity, Density::Summation][random.below(2)],
@@ -103,11 +108,38 @@ fn random_method(random: &mut Random) -> Method {
     }
 }
 
+/// The same in the Total Lagrangian formulation, as far as a scene of it can go.
+fn random_lagrangian(random: &mut Random) -> Method {
+    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    let chosen = 1 + random.below(7);
+    let laws: Vec<Law> = all.into_iter().enumerate().filter(|(k, _)| chosen >> k & 1 == 1).map(|(_, law)| law).collect();
+    let memory = laws.iter().any(|law| law.has_memory());
+    let eulerian = random_method(random);
+    Method {
+        kind: Kind::TotalLagrangian,
+        hourglass: random.coin(),
+        density: Density::Continuity,
+        gradient: [Gradient::Plain, Gradient::Adjoint][random.below(2)],
+        integrator: if memory { Integrator::Leapfrog } else { eulerian.integrator },
+        many_bodies: eulerian.many_bodies || laws.len() > 1,
+        shear: true,
+        viscosity: false,
+        xsph: false,
+        velocity_filter: false,
+        artificial_stress: None,
+        internal_energy: false,
+        dissipated_energy: memory && random.coin(),
+        laws,
+        ..eulerian
+    }
+}
+
 #[test]
 fn shaders_of_random_methods_are_valid() {
     let (mut random, mut seen, mut wrong) = (Random(2026), HashSet::new(), BTreeSet::new());
     for _ in 0..400 {
         wrong.extend(check(&random_method(&mut random), &mut seen));
+        wrong.extend(check(&random_lagrangian(&mut random), &mut seen));
     }
     assert!(seen.len() > 500, "{}", seen.len());
     assert!(wrong.is_empty(), "{}", wrong.into_iter().collect::<Vec<_>>().join("\n"));

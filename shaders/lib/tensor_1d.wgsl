@@ -87,6 +87,9 @@ fn tri_outer(a: Vec, b: Sym) -> Tri {
 fn tri_add(a: Tri, b: Tri) -> Tri {
     return a + b;
 }
+fn tri_sub(a: Tri, b: Tri) -> Tri {
+    return a - b;
+}
 // Sum over s of T_is b_s.
 fn tri_sym(t: Tri, b: Sym) -> Vec {
     return t * b;

@@ -115,6 +115,9 @@ fn tri_add(a: Tri, b: Tri) -> Tri {
 fn sym_dot(a: Sym, b: Sym) -> real {
     return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + a.xy * b.xy + a.yz * b.yz + a.xz * b.xz;
 }
+fn tri_sub(a: Tri, b: Tri) -> Tri {
+    return Tri(sym_sub(a.x, b.x), sym_sub(a.y, b.y), sym_sub(a.z, b.z));
+}
 // Sum over s of T_is b_s.
 fn tri_sym(t: Tri, b: Sym) -> Vec {
     return Vec(sym_dot(t.x, b), sym_dot(t.y, b), sym_dot(t.z, b));

@@ -4,7 +4,11 @@
 //
 // Twin: src/pass/bond_force.rs
 #import invocation
+#if hourglass
 #import displacement_difference
+#else
+#import bond
+#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -13,6 +17,9 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 #endif
 @group(0) @binding(_) var<storage, read> bond_stress: array<Mat>;
+#if quadratic_gradient
+@group(0) @binding(_) var<storage, read> quadratic_stress: array<Tri>;
+#endif
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
 @compute @workgroup_size(64)
@@ -43,6 +50,10 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
         let x = bond.x * weight;
         own += x;
         others += mat_vec(stress_of(bond), x);
+#if quadratic_gradient
+        let difference = tri_sub(quadratic_stress[a], quadratic_stress[bond.b]);
+        others += tri_sym(difference, sym_scale(products(bond.x), -weight));
+#endif
 #if hourglass
         others -= displacement_difference(displacement_a, bond) * (stiffness * weight);
 #endif

@@ -12,7 +12,15 @@
 @group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
 #endif
 #if memory
-@group(0) @binding(_) var<storage, read> viscous_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read_write> viscous_strain: array<Sym>;
+#if dissipated_energy
+@group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
+#endif
+#endif
+#if quadratic_gradient
+@group(0) @binding(_) var<storage, read> linear_coefficient: array<Sym>;
+@group(0) @binding(_) var<storage, read> quadratic_coefficient: array<Tri>;
+@group(0) @binding(_) var<storage, read_write> quadratic_stress: array<Tri>;
 #endif
 @group(0) @binding(_) var<storage, read_write> displacement_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read_write> bond_stress: array<Mat>;
@@ -24,12 +32,50 @@ fn main(invocation: Invocation) {
         return;
     }
     let a = params.first + row;
-    let gradient = displacement_gradient_of(a, row);
+    let sum = sum_bonds(a, row);
+    let linear = corrected(a, sum);
+#if quadratic_gradient
+    let products_sum = sum_products(a, row);
+    let gradient = mat_mat(sum, mat_of_sym(linear_coefficient[a])) + tri_tri(products_sum, quadratic_coefficient[a]);
+#else
+    let gradient = linear;
+#endif
+#if memory
+    relax_to(a, gradient);
+#endif
     displacement_gradient[a] = gradient;
-    bond_stress[a] = bond_stress_of(a, gradient);
+    let stress = stress_of(a, gradient);
+#if quadratic_gradient
+    let corrected_stress = mat_mat(stress, mat_of_sym(linear_coefficient[a]));
+    quadratic_stress[a] = mat_tri(stress, quadratic_coefficient[a]);
+#else
+    let corrected_stress = corrected(a, stress);
+#endif
+#if hourglass
+    bond_stress[a] = corrected_stress - linear * (params.hourglass * body_of(a).youngs_modulus);
+#else
+    bond_stress[a] = corrected_stress;
+#endif
 }
 
-fn displacement_gradient_of(a: u32, row: u32) -> Mat {
+#if quadratic_gradient
+// sum -V_b (W'/R) (u_b - u_a) (x) X_ab X_ab
+fn sum_products(a: u32, row: u32) -> Tri {
+    let h = body_of(a).smoothing_length;
+    let center = reference_position[a];
+    let displacement_a = displacement[a];
+    let count = neighbor_count[a];
+    var sum = Tri();
+    for (var k = 0u; k < count; k++) {
+        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let weight = -bond.gradient * reference_volume[bond.b];
+        sum = tri_add(sum, tri_outer(displacement_difference(displacement_a, bond), sym_scale(products(bond.x), weight)));
+    }
+    return sum;
+}
+#endif
+
+fn sum_bonds(a: u32, row: u32) -> Mat {
     let h = body_of(a).smoothing_length;
     let center = reference_position[a];
     let displacement_a = displacement[a];
@@ -40,7 +86,7 @@ fn displacement_gradient_of(a: u32, row: u32) -> Mat {
         let weight = bond.gradient * reference_volume[bond.b];
         sum += outer(displacement_difference(displacement_a, bond), bond.x * weight);
     }
-    return corrected(a, sum);
+    return sum;
 }
 
 // M K_a^-1
@@ -52,16 +98,23 @@ fn corrected(a: u32, m: Mat) -> Mat {
 #endif
 }
 
-fn bond_stress_of(a: u32, gradient: Mat) -> Mat {
-    let own = body_of(a);
 #if memory
-    let stress = first_piola(own, gradient, viscous_strain[a]);
-#else
-    let stress = first_piola(own, gradient, Sym());
+// Takes what the law remembers to the end of the step, at the new H. Before the first step the clock's is 0.
+fn relax_to(a: u32, gradient: Mat) {
+    let own = body_of(a);
+    let old = viscous_strain[a];
+    let memory = relax(own, gradient, old, clock.step);
+    viscous_strain[a] = memory;
+#if dissipated_energy
+    dissipated_energy[a] += dissipated(own, displacement_gradient[a], old, gradient, memory) * (1.0 / own.density);
 #endif
-#if hourglass
-    return corrected(a, stress) - gradient * (params.hourglass * own.youngs_modulus);
+}
+#endif
+
+fn stress_of(a: u32, gradient: Mat) -> Mat {
+#if memory
+    return first_piola(body_of(a), gradient, viscous_strain[a]);
 #else
-    return corrected(a, stress);
+    return first_piola(body_of(a), gradient, Sym());
 #endif
 }

@@ -1,13 +1,16 @@
 //! Shader text for one method, and what naga reads out of it.
 //!
 //! Sources are WGSL with four directives, each on a line of its own:
-//! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`,
-//! `smoothing` and `potential` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
+//! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`, `smoothing`,
+//! `potential` and `laws` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
 //! [`Method::flags`].
 //! `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
 //! are bound by the variables' names, which [`Shader::entry`] tells.
 
+mod laws;
+
 use crate::contact::Potential;
+use crate::material::Law;
 use crate::pass::Pass;
 use crate::state::Method;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -25,8 +28,8 @@ macro_rules! library {
 
 library! {
     lib: body, body_index, bond, contact_pair, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
-        moving_velocity, pair, pair_velocity, params, real, separation, tensor_1d, tensor_2d, tensor_3d, visit_cells, volume;
-    material: elastic, laws, st_venant_kirchhoff;
+        moving_velocity, pair, pair_velocity, params, real, separation, strain, tensor_1d, tensor_2d, tensor_3d, visit_cells, volume;
+    material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
 
 /// Every word that `#if` may ask for.
@@ -71,6 +74,8 @@ pub struct Choice<'a> {
     pub smoothing: &'a str,
     /// Text for `#import potential`.
     pub potential: &'a str,
+    /// What `#import laws` chooses from, in order of their numbers.
+    pub laws: &'a [Law],
 }
 
 /// The WGSL of a pass for a method.
@@ -82,6 +87,7 @@ pub fn compose(pass: Pass, method: &Method) -> String {
         flags: &method.flags(),
         dimension: method.dimension,
         smoothing: method.smoothing.source(),
+        laws: &method.laws,
         potential: method.contact.map_or("", Potential::source),
     };
     compose_text(pass.name(), pass.source(), &choice)
@@ -145,6 +151,7 @@ impl Composer<'_> {
         let stem = match import {
             "smoothing" => return Some(self.choice.smoothing.to_string()),
             "potential" => return Some(self.choice.potential.to_string()),
+            "laws" => return Some(laws::text(self.choice.laws)),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),
         };

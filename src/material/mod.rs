@@ -4,7 +4,10 @@
 //! In the Total Lagrangian: first Piola-Kirchhoff stress from H = F - 1, written for small H in f32.
 //! Twin: shaders/material/
 
-mod st_venant_kirchhoff;
+pub mod maxwell;
+pub mod neo_hookean;
+pub mod st_venant_kirchhoff;
+pub mod strain;
 
 use crate::state::Body;
 use crate::tensor::{Real, Space};
@@ -32,14 +35,62 @@ impl Law {
     pub fn is_finite_strain(self) -> bool {
         !matches!(self, Law::Elastic | Law::Fluid)
     }
+    /// Stress depends on more than the deformation.
+    pub fn has_memory(self) -> bool {
+        self == Law::Maxwell
+    }
+    /// Word in scenes, and stem of the law's files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Law::Elastic => "elastic",
+            Law::Fluid => "fluid",
+            Law::StVenantKirchhoff => "st_venant_kirchhoff",
+            Law::NeoHookean => "neo_hookean",
+            Law::Maxwell => "maxwell",
+        }
+    }
 }
 
+const NEO_HOOKEAN: u32 = Law::NeoHookean as u32;
+const MAXWELL: u32 = Law::Maxwell as u32;
+
 /// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the viscous strain C_i - 1 of a law that
-/// remembers.
+/// remembers. This and the next two come to a shader as `src/backend/shader/laws.rs` writes them.
 #[inline(always)]
 pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Mat {
-    let _ = memory;
-    st_venant_kirchhoff::first_piola::<S>(body, h)
+    match body.law {
+        NEO_HOOKEAN => neo_hookean::first_piola::<S>(body, h),
+        MAXWELL => maxwell::first_piola::<S>(body, h, memory),
+        _ => st_venant_kirchhoff::first_piola::<S>(body, h),
+    }
+}
+
+/// Memory after a step that ends at the deformation 1 + H.
+#[inline(always)]
+pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym, step: S::Real) -> S::Sym {
+    if body.law == MAXWELL { maxwell::relax::<S>(body, h, memory, step) } else { memory }
+}
+
+/// Heat of one step per reference volume, from H and memory before and after it.
+#[inline(always)]
+pub fn dissipated<S: Space>(body: &Body<S::Real>, before: (S::Mat, S::Sym), after: (S::Mat, S::Sym)) -> S::Real {
+    if body.law == MAXWELL { maxwell::dissipated::<S>(body, before, after) } else { S::Real::of(0.0) }
+}
+
+/// Elastic energy per reference volume of the deformation 1 + H.
+pub fn stored_energy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Real {
+    match body.law {
+        NEO_HOOKEAN => neo_hookean::stored_energy::<S>(body, h),
+        MAXWELL => maxwell::stored_energy::<S>(body, h, memory),
+        _ => st_venant_kirchhoff::stored_energy::<S>(body, h),
+    }
+}
+
+/// True stress P F^T/J.
+pub fn cauchy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Sym {
+    let one = S::Real::of(1.0);
+    let kirchhoff = S::mat_mat(first_piola::<S>(body, h, memory), S::transpose(S::mat_identity() + h));
+    S::sym_part(kirchhoff) * (one / (one + strain::volume_change::<S>(h)))
 }
 
 /// P = K (rho/rho_0 - 1) = -K e/(1 + e), e the volumetric strain. With the bulk modulus K, not rho c^2 of

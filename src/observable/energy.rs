@@ -22,7 +22,7 @@ pub const KINETIC: Kind = Kind {
 
 pub const ELASTIC: Kind = Kind {
     word: "elastic_energy",
-    about: "sum of V0 (K (e - ln(1 + e)) + (1 + e) S:S/(4 mu))",
+    about: "sum of V0 (K (e - ln(1 + e)) + (1 + e) S:S/(4 mu)); of V0 psi in the Total Lagrangian formulation",
     needs: &[],
     fields: &[Field::VolumetricStrain],
     value: Value::Series(|moment, observer| sum(observer, |i| moment.elastic_energy(i))),
@@ -38,7 +38,7 @@ pub const INTERNAL: Kind = Kind {
 
 pub const DISSIPATED: Kind = Kind {
     word: "dissipated_energy",
-    about: "heat made by viscosity so far (formulation.dissipated_energy)",
+    about: "heat made by viscosity so far, that of a Maxwell body too (formulation.dissipated_energy)",
     needs: &[],
     fields: &[Field::DissipatedEnergy],
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i))),

@@ -3,6 +3,7 @@
 //! A **series** kind gives a number at every row of `series.csv`; a **result** kind is found from a finished
 //! series; a profile is a table taken at the end. Adding one is a file and a line in the list below.
 
+mod deformation;
 mod energy;
 mod force;
 mod moment;
@@ -29,7 +30,7 @@ pub struct Kind {
     pub about: &'static str,
     /// Keys of `[observe.NAME]` that it cannot do without.
     pub needs: &'static [&'static str],
-    /// Fields that it reads; those that a run lacks are refused.
+    /// Fields that it reads in the Eulerian formulation; those that a run has no counterpart of are refused.
     pub fields: &'static [Field],
     pub value: Value,
 }
@@ -161,7 +162,7 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
         return Err("selects no particle".into());
     }
     let present = crate::step::fields(&scene.method);
-    if let Some(missing) = kind.fields.iter().find(|f| !present.contains(f)) {
+    if let Some(missing) = moment::needed(scene, kind.fields).iter().find(|field| !present.contains(field)) {
         return Err(format!("needs the field {}, which this scene does not name", missing.name()));
     }
     if let Some(path) = &typed.field {
@@ -205,14 +206,9 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
 
 /// Fields that the host must see at every row of the series.
 pub fn fields_read(observers: &[Observer], scene: &Scene) -> Vec<Field> {
-    let present = crate::step::fields(&scene.method);
     let mut list = vec![Field::Number];
     for observer in observers {
-        list.extend_from_slice(observer.kind.fields);
-        if observer.kind.fields.contains(&Field::VolumetricStrain) {
-            // An energy counts what the scene has of these.
-            list.extend([Field::DeviatoricStress, Field::DissipatedEnergy].iter().filter(|f| present.contains(f)));
-        }
+        list.extend(moment::read(scene, observer.kind.fields));
         if let Some(path) = &observer.typed.field {
             list.extend(moment::fields_of_path(scene, path));
         }

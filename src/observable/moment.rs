@@ -1,11 +1,12 @@
 //! One moment of a run on the host, ordered by particle number, and every quantity that can be made of it.
 
+use super::deformation::Deformation;
 use crate::backend::Columns;
 use crate::material;
 use crate::output::{Column, Snapshot};
 use crate::particles::{Field, Type, unit_text};
 use crate::scene::Scene;
-use crate::scene::file::Units;
+use crate::scene::file::{Kind, Units};
 use crate::scene::read::hint;
 
 /// Fields at one time.
@@ -16,7 +17,7 @@ pub struct Moment<'a> {
     columns: Columns,
 }
 
-/// What a path may begin with: name, numbers a particle, fields it is made of.
+/// What a path may begin with: name, numbers a particle, fields it is made of in the Eulerian formulation.
 const QUANTITIES: &[(&str, usize, &[Field])] = &[
     ("position", 3, &[Field::Displacement]),
     ("displacement", 3, &[Field::Displacement]),
@@ -40,10 +41,32 @@ fn quantity(path: &str) -> Result<&'static (&'static str, usize, &'static [Field
     })
 }
 
+/// Fields that a scene cannot do without where `fields` are named: in the Total Lagrangian formulation volume,
+/// stress and energy follow from the deformation gradient. Only some scenes have a deviator: see [`read`].
+pub fn needed(scene: &Scene, fields: &[Field]) -> Vec<Field> {
+    let lagrangian = scene.method.kind == Kind::TotalLagrangian;
+    let kept = |field: &Field| match field {
+        Field::DeviatoricStress => None,
+        Field::VolumetricStrain if lagrangian => Some(Field::DisplacementGradient),
+        field => Some(*field),
+    };
+    fields.iter().filter_map(kept).collect()
+}
+
+/// The same, and what the scene has of fields that only some scenes have.
+pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
+    let present = crate::step::fields(&scene.method);
+    let mut list = needed(scene, fields);
+    if fields.contains(&Field::VolumetricStrain) {
+        list.extend([Field::DeviatoricStress, Field::ViscousStrain, Field::DissipatedEnergy]);
+    }
+    list.retain(|field| present.contains(field));
+    list
+}
+
 /// Fields needed for a path, of those that the scene has.
 pub fn fields_of_path(scene: &Scene, path: &str) -> Vec<Field> {
-    let present = crate::step::fields(&scene.method);
-    quantity(path).map_or_else(|_| Vec::new(), |q| q.2.iter().copied().filter(|f| present.contains(f)).collect())
+    quantity(path).map_or_else(|_| Vec::new(), |q| read(scene, q.2))
 }
 
 /// Refuses what is no whole quantity, or one of a field that the scene lacks.
@@ -53,7 +76,7 @@ pub fn check_quantity(scene: &Scene, name: &str) -> Result<(), String> {
         return Err(format!("reads `{name}`, a part: name the whole `{word}`"));
     }
     let present = crate::step::fields(&scene.method);
-    match fields.iter().find(|f| !present.contains(f) && **f != Field::DeviatoricStress) {
+    match needed(scene, fields).iter().find(|field| !present.contains(field)) {
         Some(field) => Err(format!("reads {word}, and this scene has no field {}", field.name())),
         None => Ok(()),
     }
@@ -90,7 +113,7 @@ impl<'a> Moment<'a> {
     }
 
     /// The particle's numbers of a field, padding included; zeros where the run lacks the field.
-    fn row(&self, field: Field, i: usize) -> &[f64] {
+    pub(super) fn row(&self, field: Field, i: usize) -> &[f64] {
         static ZEROS: [f64; 12] = [0.0; 12];
         let words = field.kind().words_in(self.scene.dimension());
         self.columns.get(&field).map_or(&ZEROS[..words], |column| &column[i * words..(i + 1) * words])
@@ -112,12 +135,21 @@ impl<'a> Moment<'a> {
         std::array::from_fn(|k| x[k] + u[k])
     }
 
+    /// In a Total Lagrangian scene, what all else follows from.
+    fn deformation(&self, i: usize) -> Option<Deformation> {
+        (self.scene.method.kind == Kind::TotalLagrangian).then(|| Deformation::of(self, i))
+    }
+
+    /// Reference density over density, minus 1.
     pub fn volumetric_strain(&self, i: usize) -> f64 {
+        if let Some(deformation) = self.deformation(i) {
+            return deformation.volumetric_strain();
+        }
         self.scalar(Field::VolumetricStrain, i)
     }
 
     /// Deviator xx, yy, zz, xy, yz, xz; the axes that the scene lacks carry what the zero trace asks for.
-    pub fn deviator(&self, i: usize) -> [f64; 6] {
+    fn deviator(&self, i: usize) -> [f64; 6] {
         let s = self.row(Field::DeviatoricStress, i);
         match self.scene.dimension() {
             1 => [s[0], -0.5 * s[0], -0.5 * s[0], 0.0, 0.0, 0.0],
@@ -126,13 +158,21 @@ impl<'a> Moment<'a> {
         }
     }
 
+    /// Compression positive.
     pub fn pressure(&self, i: usize) -> f64 {
+        if let Some(deformation) = self.deformation(i) {
+            let s = deformation.stress();
+            return -(s[0] + s[1] + s[2]) / 3.0;
+        }
         let body = &self.scene.bodies[self.scene.particles[i].body as usize];
         material::pressure(body.bulk_modulus, self.volumetric_strain(i))
     }
 
     /// xx, yy, zz, xy, yz, xz; tension positive.
     pub fn stress(&self, i: usize) -> [f64; 6] {
+        if let Some(deformation) = self.deformation(i) {
+            return deformation.stress();
+        }
         let (mut s, p) = (self.deviator(i), self.pressure(i));
         s.iter_mut().take(3).for_each(|x| *x -= p);
         s
@@ -141,6 +181,9 @@ impl<'a> Moment<'a> {
     /// Elastic energy of a particle.
     pub fn elastic_energy(&self, i: usize) -> f64 {
         let particle = &self.scene.particles[i];
+        if let Some(deformation) = self.deformation(i) {
+            return particle.volume * deformation.elastic_energy();
+        }
         let body = &self.scene.bodies[particle.body as usize];
         let s = self.deviator(i);
         let square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);

@@ -7,11 +7,14 @@
 //! and its force is only sum alpha E V_b w [2 u_ab - (H_a + H_b) X_ab], ab meaning b - a. The parts of both
 //! terms that belong to one particle were put together in [`super::deform`].
 //!
+//! The quadratic-exact gradient adds sum (P_a C2_a - P_b C2_b) V_b w X_ab X_ab, see [`super::correct_quadratic`].
+//!
 //! Twin: shaders/pass/bond_force.wgsl
 
 use super::Stage;
 use crate::bond::{Source, displacement_difference, with_bonds};
 use crate::pair::mirror_tensor;
+use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -47,5 +50,20 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
             }
         }
     }
+    if state.method.gradient == Gradient::Quadratic {
+        others += quadratic_part::<S, B>(state, a);
+    }
     (S::mat_vec(particles.bond_stress[a], own) + others) * (S::Real::of(1.0) / body.density)
+}
+
+fn quadratic_part<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
+    let stress = &state.particles.quadratic_stress;
+    let mut sum = S::Vec::default();
+    for block in B::blocks(state, a) {
+        for bond in block {
+            let products = S::products(bond.row.x) * (S::Real::of(-1.0) * bond.row.weight);
+            sum += S::tri_sym(stress[a] - stress[bond.b], products);
+        }
+    }
+    sum
 }

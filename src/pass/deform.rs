@@ -2,31 +2,66 @@
 //! it, P_a K_a^-1 - alpha E H_a. Twin: shaders/pass/deform.wgsl
 //!
 //! The sums run over the reference configuration. The second term is the part of the hourglass force that
-//! belongs to one particle; see [`super::bond_force`].
+//! belongs to one particle; see [`super::bond_force`]. In between, a law that remembers takes its memory to the
+//! end of the step.
+//!
+//! With the quadratic-exact gradient H = [sum ..] C1 + [sum -V_b (W'/R) (u_b - u_a) (x) X_ab X_ab] C2, see
+//! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
 use crate::bond::{Source, displacement_difference, with_bonds};
 use crate::material;
 use crate::scene::file::Gradient;
 use crate::state::State;
-use crate::tensor::Space;
+use crate::tensor::{Real, Space};
 use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
+    let hourglass = S::Real::of(-1.0) * state.params.hourglass;
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     let mut stresses = std::mem::take(&mut state.particles.bond_stress);
+    let before = if state.method.memory() && state.method.dissipated_energy { gradients.clone() } else { Vec::new() };
     with_bonds!(state, B => {
         let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
         columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
-            *gradient = sum_bonds::<S, B>(state, a);
-            (*gradient, *stress) = respond(state, a, gradient);
+            *stress = sum_bonds::<S, B>(state, a);
+            *gradient = corrected(state, a, stress);
+            let linear = *gradient;
+            if state.method.gradient == Gradient::Quadratic {
+                *gradient = quadratic_gradient::<S, B>(state, a, stress);
+            }
+            *stress = linear * (hourglass * state.body(a).youngs_modulus);
         });
     });
     state.particles.displacement_gradient = gradients;
+    relax(state, &before);
+    super::write(&mut stresses, |a, slot| *slot += bond_stress(state, a));
     state.particles.bond_stress = stresses;
+    let mut stresses = std::mem::take(&mut state.particles.quadratic_stress);
+    super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.particles.quadratic_coefficient[a]));
+    state.particles.quadratic_stress = stresses;
+}
+
+/// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
+fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
+    let step = state.clock.step;
+    let mut memories = std::mem::take(&mut state.particles.viscous_strain);
+    let mut heats = if before.is_empty() { Vec::new() } else { std::mem::take(&mut state.particles.dissipated_energy) };
+    let old = if before.is_empty() { Vec::new() } else { memories.clone() };
+    let gradients = &state.particles.displacement_gradient;
+    super::write(&mut memories, |a, memory| *memory = material::relax::<S>(state.body(a), gradients[a], *memory, step));
+    super::write(&mut heats, |a, heat| {
+        let body = state.body(a);
+        let heat_of_step = material::dissipated::<S>(body, (before[a], old[a]), (gradients[a], memories[a]));
+        *heat += heat_of_step * (S::Real::of(1.0) / body.density);
+    });
+    state.particles.viscous_strain = memories;
+    if !before.is_empty() {
+        state.particles.dissipated_energy = heats;
+    }
 }
 
 #[inline(always)]
@@ -40,29 +75,41 @@ fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     sum
 }
 
-/// H and what the bonds carry. Out of line, so that the sums of the loop before stay in vector registers.
+/// H of the quadratic fit, from the sum over the separations and another over their products.
+fn quadratic_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize, first: &S::Mat) -> S::Mat {
+    let mut second = S::Tri::default();
+    for block in B::blocks(state, a) {
+        for bond in block {
+            let products = S::products(bond.row.x) * (S::Real::of(-1.0) * bond.row.weight);
+            second += S::tri_outer(displacement_difference::<S, B>(state, a, &bond), products);
+        }
+    }
+    let particles = &state.particles;
+    let linear = S::mat_mat(*first, S::mat_of_sym(particles.linear_coefficient[a]));
+    linear + S::tri_tri(second, particles.quadratic_coefficient[a])
+}
+
+/// M K_a^-1. Out of line, so that the sums of the loop over bonds stay in vector registers.
 #[inline(never)]
-fn respond<S: Space>(state: &State<S>, a: usize, sum: &S::Mat) -> (S::Mat, S::Mat) {
-    let gradient = corrected(state, a, *sum);
-    (gradient, bond_stress(state, a, gradient))
-}
-
-/// M K_a^-1
-#[inline(always)]
-fn corrected<S: Space>(state: &State<S>, a: usize, m: S::Mat) -> S::Mat {
+fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::Mat {
     if state.method.gradient == Gradient::Plain {
-        return m;
+        return *m;
     }
-    S::mat_mat(m, S::mat_of_sym(state.particles.reference_correction[a]))
+    S::mat_mat(*m, S::mat_of_sym(state.particles.reference_correction[a]))
 }
 
+/// P_a
 #[inline(always)]
-fn bond_stress<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
-    let body = state.body(a);
+fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
-    let stress = corrected(state, a, material::first_piola::<S>(body, gradient, memory));
-    if !state.method.hourglass {
-        return stress;
+    material::first_piola::<S>(state.body(a), state.particles.displacement_gradient[a], memory)
+}
+
+/// P_a K_a^-1, or P_a C1
+#[inline(always)]
+fn bond_stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
+    if state.method.gradient == Gradient::Quadratic {
+        return S::mat_mat(stress(state, a), S::mat_of_sym(state.particles.linear_coefficient[a]));
     }
-    stress - gradient * (state.params.hourglass * body.youngs_modulus)
+    corrected(state, a, &stress(state, a))
 }

@@ -168,7 +168,7 @@ pub struct Formulation {
     pub artificial_stress: Option<ArtificialStress>,
     /// Integrate the energy equation.
     pub internal_energy: bool,
-    /// Add up what viscosity turns into heat.
+    /// Add up what viscosity, of the formulation or of a Maxwell body, turns into heat.
     pub dissipated_energy: bool,
     /// Reach of the neighbour list beyond the kernel's, over h. In space more pairs pay for it than in the
     /// plane, so there it is smaller unless given.

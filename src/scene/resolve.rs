@@ -439,7 +439,8 @@ fn method(
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
         "xsph and velocity_filter are two uses of one average: name one of them".into()
     })?;
-    refuse.unless(!f.dissipated_energy || f.viscosity.is_some(), &["formulation", "dissipated_energy"], || {
+    let dissipates = f.viscosity.is_some() || bodies.iter().any(|body| body.law.has_memory());
+    refuse.unless(!f.dissipated_energy || dissipates, &["formulation", "dissipated_energy"], || {
         "dissipated_energy adds up the heat of viscosity, and this scene names no viscosity".into()
     })?;
     let lagrangian = f.kind == Kind::TotalLagrangian;
@@ -518,9 +519,13 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     refuse.unless(f.hourglass() >= 0.0 && f.hourglass().is_finite(), &["formulation", "hourglass"], || {
         format!("hourglass must be 0 or a positive number, found {}", f.hourglass())
     })?;
-    let conservative = lagrangian && f.viscosity.is_none() && bodies.iter().all(|body| body.law != Law::Maxwell);
+    let remembers = bodies.iter().any(|body| body.law.has_memory());
+    let conservative = lagrangian && f.viscosity.is_none() && !remembers;
     refuse.unless(conservative || file.time.integrator != Integrator::Pefrl, &["time", "integrator"], || {
         "pefrl needs forces that depend on positions alone: a Total Lagrangian scene without viscosity or a law that remembers".into()
+    })?;
+    refuse.unless(!remembers || file.time.integrator == Integrator::Leapfrog, &["time", "integrator"], || {
+        "the law `maxwell` takes its memory to the end of whole steps: only the integrator leapfrog has it".into()
     })
 }
 

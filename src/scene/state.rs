@@ -33,7 +33,7 @@ impl Scene {
             method,
             params,
             clock: Clock::default(),
-            bodies: self.bodies.iter().map(body).collect(),
+            bodies: self.bodies.iter().map(super::Body::numbers).collect(),
             coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
             contact_pairs: self.contacts.iter().flatten().map(|pair| pair.map(real)).collect(),
             constraints: Vec::new(),
@@ -253,17 +253,20 @@ impl Scene {
     }
 }
 
-fn body<R: Real>(body: &super::Body) -> Body<R> {
-    let real = R::of;
-    Body {
-        law: body.law as u32,
-        padding: 0,
-        density: real(body.density),
-        bulk_modulus: real(body.bulk_modulus),
-        shear_modulus: real(body.shear_modulus),
-        youngs_modulus: real(body.youngs_modulus()),
-        relaxation: real(body.relaxation),
-        sound_speed: real(body.sound_speed()),
-        smoothing_length: real(body.smoothing_length),
+impl super::Body {
+    /// The body's row in the table of bodies.
+    pub fn numbers<R: Real>(&self) -> Body<R> {
+        let real = R::of;
+        Body {
+            law: self.law as u32,
+            padding: 0,
+            density: real(self.density),
+            bulk_modulus: real(self.bulk_modulus),
+            shear_modulus: real(self.shear_modulus),
+            youngs_modulus: real(self.youngs_modulus()),
+            relaxation: real(self.relaxation),
+            sound_speed: real(self.sound_speed()),
+            smoothing_length: real(self.smoothing_length),
+        }
     }
 }

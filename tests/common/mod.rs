@@ -2,6 +2,8 @@
 // Each test file is a crate of its own and uses its own part.
 #![allow(dead_code)]
 
+pub mod deformation;
+
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Columns};
 use lithosph::particles::Field;

@@ -162,10 +162,10 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
     }
     all!(
         same: count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-            artificial_exponent, zero;
+            artificial_exponent, zero, contact_capacity;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
-            body_force_y, body_force_z, normalisation, reach, slack, alpha, beta, softening, smoothing_weight,
-            artificial_epsilon, artificial_weight, cfl, fixed_step
+            body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
+            artificial_epsilon, artificial_weight, cfl, fixed_step, contact_apart, contact_reach
     )
 }
 
@@ -244,7 +244,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let count = state.params.count as usize;
     let kind = field.kind();
     if kind == Type::Integer {
-        if matches!(field, Cell | NeighborCount) {
+        if matches!(field, Cell | NeighborCount | ContactCount) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
         }
@@ -270,8 +270,13 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             }
             VelocityGradient | VolumetricStrainRate | VolumetricStrainSum => 0.02 * rate * random.signed(),
             DeviatoricStressRate | DeviatoricStressSum => 0.02 * rate * bulk * random.signed(),
-            Correction => random.signed(),
-            Number | Body | Field::Constraint | Cell | NeighborCount => unreachable!(),
+            Correction | ReferenceCorrection | LinearCoefficient => random.signed(),
+            QuadraticCoefficient => random.signed() / spacing,
+            QuadraticStress => bulk * strain(random) / spacing,
+            DisplacementGradient | ViscousStrain => 0.1 * random.signed(),
+            ContactEnergy => 1e-3 * speed * speed * random.unit(),
+            BondStress => bulk * strain(random),
+            Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount => unreachable!(),
         }
     };
     let width = kind.words::<S>();

@@ -3,7 +3,7 @@
 use super::*;
 
 fn composed(source: &str, flags: &[&str]) -> String {
-    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", potential: "" })
+    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", potential: "", laws: &[] })
 }
 
 #[test]
@@ -120,6 +120,59 @@ fn methods() -> Vec<Method> {
                 switch(if together { &mut method } else { &mut alone });
                 list.push(if together { method.clone() } else { alone });
             }
+        }
+    }
+    list.extend((1..=3).flat_map(lagrangian_methods));
+    list
+}
+
+/// Every set of laws, with each switch of the Total Lagrangian formulation alone and with all.
+fn lagrangian_methods(dimension: usize) -> Vec<Method> {
+    use crate::scene::file::{Density, Gradient, Integrator, Kind};
+    use crate::smoothing::Smoothing;
+    let switches: [fn(&mut Method); 8] = [
+        |_| (),
+        |m| m.hourglass = true,
+        |m| m.gradient = Gradient::Plain,
+        |m| m.many_bodies = true,
+        |m| (m.many_bodies, m.coupling) = (true, true),
+        |m| m.symmetry = true,
+        |m| m.periodic = true,
+        |m| m.dissipated_energy = m.memory(),
+    ];
+    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    let mut list = Vec::new();
+    for set in 1..8 {
+        let mut together = Method {
+            dimension,
+            kind: Kind::TotalLagrangian,
+            contact: None,
+            laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
+            hourglass: false,
+            smoothing: Smoothing::ALL[set % Smoothing::ALL.len()],
+            integrator: Integrator::Leapfrog,
+            density: Density::Continuity,
+            gradient: Gradient::Adjoint,
+            shear: true,
+            many_bodies: false,
+            coupling: false,
+            constraints: false,
+            symmetry: false,
+            periodic: false,
+            body_force: false,
+            viscosity: false,
+            xsph: false,
+            velocity_filter: false,
+            artificial_stress: None,
+            internal_energy: false,
+            dissipated_energy: false,
+            compensated: false,
+        };
+        for switch in switches {
+            let mut alone = together.clone();
+            switch(&mut alone);
+            switch(&mut together);
+            list.extend([alone, together.clone()]);
         }
     }
     list
