@@ -160,6 +160,7 @@ fields! {
     dissipated_energy_sum: DissipatedEnergySum, Real, SPECIFIC_POWER, false, "weighted sum of the stages' dissipated powers";
     listed_displacement: ListedDisplacement, Vec, LENGTH, false, "displacement when the neighbour list was last built";
     cell: Cell, Integer, NONE, false, "index of the cell that holds the particle";
+    hourglass_energy: HourglassEnergy, Real, [2, 1, -2], false, "energy of what the deformation gradient does not see, made when asked for";
     contact_count: ContactCount, Integer, NONE, false, "number of entries in the particle's list of contacts";
     contact_energy: ContactEnergy, Real, [2, 1, -2], false, "the particle's half of the energy of its contacts";
     neighbor_count: NeighborCount, Integer, NONE, false, "number of entries in the particle's neighbour list";

@@ -199,6 +199,21 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
     calls
 }
 
+/// Passes that bring fields up to date before they are fetched: those that only observers read, and those that an
+/// integrator leaves at one of its stages.
+pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
+    let mut calls = Vec::new();
+    let staged = method.kind == Kind::TotalLagrangian && method.integrator != Integrator::Leapfrog;
+    let dependent = [Field::DisplacementGradient, Field::Acceleration, Field::ContactEnergy];
+    if staged && wanted.iter().any(|field| dependent.contains(field)) {
+        force(method, &mut calls);
+    }
+    if wanted.contains(&Field::HourglassEnergy) {
+        calls.push(call(Pass::HourglassEnergy));
+    }
+    calls
+}
+
 /// Fields that the passes of this method read or write, and no others.
 pub fn fields(method: &Method) -> Vec<Field> {
     use Field::*;
@@ -215,6 +230,7 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (method.contact.is_some(), &[ContactCount, ContactEnergy]),
         (!eulerian, &[DisplacementGradient, BondStress]),
         (!eulerian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
+        (method.hourglass, &[HourglassEnergy]),
         (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
         (method.memory(), &[ViscousStrain]),
         (method.many_bodies, &[Body]),

@@ -97,6 +97,9 @@ impl<S: Space> Backend for Cpu<S> {
     }
 
     fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String> {
+        let running = std::mem::replace(&mut self.state.clock.running, 1);
+        self.run(&step::before_fetch(&self.state.method, fields));
+        self.state.clock.running = running;
         let column = |&field: &Field| (field, numbers::<S>(field, self.state.particles.bytes(field)));
         Ok(fields.iter().map(column).collect())
     }

@@ -12,6 +12,27 @@ fn kinetic(moment: &Moment, i: usize) -> f64 {
     0.5 * moment.scene.mass(i) * v.iter().map(|c| c * c).sum::<f64>()
 }
 
+/// Energy beside that of the material.
+fn stray(moment: &Moment, i: usize) -> f64 {
+    moment.scalar(Field::HourglassEnergy, i) + moment.scalar(Field::ContactEnergy, i)
+}
+
+pub const HOURGLASS: Kind = Kind {
+    word: "hourglass_energy",
+    about: "energy of what the deformation gradient does not see (Total Lagrangian)",
+    needs: &[],
+    fields: &[Field::HourglassEnergy],
+    value: Value::Series(|moment, observer| sum(observer, |i| moment.scalar(Field::HourglassEnergy, i))),
+};
+
+pub const CONTACT: Kind = Kind {
+    word: "contact_energy",
+    about: "energy of pairs that touch",
+    needs: &[],
+    fields: &[Field::ContactEnergy],
+    value: Value::Series(|moment, observer| sum(observer, |i| moment.scalar(Field::ContactEnergy, i))),
+};
+
 pub const KINETIC: Kind = Kind {
     word: "kinetic_energy",
     about: "sum of m v^2/2",
@@ -46,13 +67,13 @@ pub const DISSIPATED: Kind = Kind {
 
 pub const TOTAL: Kind = Kind {
     word: "total_energy",
-    about: "kinetic and elastic energy, and the dissipated one where the scene adds it up",
+    about: "kinetic and elastic energy, that of hourglass terms and contacts, and the dissipated one where the scene adds it up",
     needs: &[],
     fields: &[Field::Velocity, Field::VolumetricStrain],
     value: Value::Series(|moment, observer| {
         sum(observer, |i| {
             let heat = moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i);
-            kinetic(moment, i) + moment.elastic_energy(i) + heat
+            kinetic(moment, i) + moment.elastic_energy(i) + heat + stray(moment, i)
         })
     }),
 };

@@ -59,6 +59,8 @@ pub static KINDS: &[Kind] = &[
     energy::ELASTIC,
     energy::INTERNAL,
     energy::DISSIPATED,
+    energy::HOURGLASS,
+    energy::CONTACT,
     energy::TOTAL,
     energy::SPEED,
     momentum::LINEAR,

@@ -59,6 +59,10 @@ pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
     let mut list = needed(scene, fields);
     if fields.contains(&Field::VolumetricStrain) {
         list.extend([Field::DeviatoricStress, Field::ViscousStrain, Field::DissipatedEnergy]);
+        // With the velocity it is a total energy.
+        if fields.contains(&Field::Velocity) {
+            list.extend([Field::HourglassEnergy, Field::ContactEnergy]);
+        }
     }
     list.retain(|field| present.contains(field));
     list

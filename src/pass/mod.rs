@@ -17,6 +17,7 @@ mod filter_velocity;
 mod find_contacts;
 mod find_neighbors;
 mod force;
+mod hourglass_energy;
 mod kick;
 mod reorder;
 mod runge_kutta;
@@ -156,6 +157,7 @@ passes! {
     correct_quadratic: CorrectQuadratic, [main: Listed], "coefficients of the gradient that is exact for quadratic displacements";
     deform: Deform, [main: Listed], "deformation gradient, stress, and what the bonds carry of it";
     bond_force: BondForce, [main: Listed], "acceleration by the bonds of the reference configuration";
+    hourglass_energy: HourglassEnergy, [main: Listed], "energy of the hourglass term, when asked for";
     find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";
     contact_force: ContactForce, [main: Particles], "adds the acceleration by contact";
     smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";

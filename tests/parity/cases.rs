@@ -143,6 +143,24 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             ..BARE
         },
         Case {
+            name: "lagrangian, leapfrog, contact by the barrier, quadratic gradient",
+            bodies: 2,
+            compensated: true,
+            laws: ["neo_hookean", "st_venant_kirchhoff"],
+            top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"barrier\", stiffness = 0.5, range = 2 } }]",
+            formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, rk2, contact by the soft potential",
+            bodies: 2,
+            laws: ["neo_hookean", "neo_hookean"],
+            top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 2 } }]",
+            formulation: "kind = \"total_lagrangian\"",
+            time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
             name: "lagrangian, rk4, plain gradient",
             laws: ["neo_hookean", "neo_hookean"],
             formulation: "kind = \"total_lagrangian\"\ngradient = \"plain\"",

@@ -122,6 +122,13 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
             let lists = (0..state.params.count as usize).map(|a| state.neighbors_of(a));
             Some(lists.flat_map(|list| std::iter::once(list.len() as u32).chain(list.iter().copied())).collect())
         }
+        "contacts" => {
+            let count = state.params.count as usize;
+            let entry =
+                |k: usize, a: usize| (k < state.particles.contact_count[a] as usize).then(|| state.contacts[k * count + a]);
+            let rows = state.contacts.len() / count;
+            Some((0..rows).flat_map(|k| (0..count).filter_map(move |a| entry(k, a))).collect())
+        }
         _ => match field(name) {
             Some(field) if field.kind() == Type::Integer => Some(bytemuck::cast_slice(state.particles.bytes(field)).to_vec()),
             _ => None,

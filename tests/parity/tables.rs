@@ -9,7 +9,8 @@ use lithosph::state::{Body, Clock, Constraint, ContactPair, Params, SCAN_BLOCK, 
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
-pub const TABLES: [&str; 7] = ["clock", "cell_count", "cell_start", "cell_block", "cell_particles", "neighbors", "block_bound"];
+pub const TABLES: [&str; 8] =
+    ["clock", "cell_count", "cell_start", "cell_block", "cell_particles", "neighbors", "contacts", "block_bound"];
 
 pub fn field(name: &str) -> Option<Field> {
     Field::ALL.iter().copied().find(|field| field.name() == name)
@@ -23,6 +24,7 @@ fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
         "cell_block" => cast_slice(&state.cell_block),
         "cell_particles" => cast_slice(&state.cell_particles),
         "neighbors" => cast_slice(&state.neighbors),
+        "contacts" => cast_slice(&state.contacts),
         "block_bound" => cast_slice(&state.block_bound),
         _ => state.particles.bytes(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
     }
@@ -35,6 +37,7 @@ fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] 
         "cell_block" => cast_slice_mut(&mut state.cell_block),
         "cell_particles" => cast_slice_mut(&mut state.cell_particles),
         "neighbors" => cast_slice_mut(&mut state.neighbors),
+        "contacts" => cast_slice_mut(&mut state.contacts),
         "block_bound" => cast_slice_mut(&mut state.block_bound),
         _ => state.particles.bytes_mut(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
     }
@@ -274,7 +277,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             QuadraticCoefficient => random.signed() / spacing,
             QuadraticStress => bulk * strain(random) / spacing,
             DisplacementGradient | ViscousStrain => 0.1 * random.signed(),
-            ContactEnergy => 1e-3 * speed * speed * random.unit(),
+            ContactEnergy | HourglassEnergy => 1e-3 * speed * speed * random.unit(),
             BondStress => bulk * strain(random),
             Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount => unreachable!(),
         }

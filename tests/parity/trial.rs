@@ -14,7 +14,8 @@ use std::collections::BTreeSet;
 /// What a run dispatches from its beginning through its first step.
 pub fn calls(method: &Method) -> Vec<Call> {
     let before = step::prepare(method).into_iter().chain(step::begin_segment(method));
-    before.chain(step::begin_run(method)).chain(step::step(method)).collect()
+    let fetched = step::before_fetch(method, &step::fields(method));
+    before.chain(step::begin_run(method)).chain(step::step(method)).chain(fetched).collect()
 }
 
 /// Tables that a pass can write, by reflection on its shader.

@@ -149,6 +149,24 @@ impl Gpu {
         self.link.submit(encoder)
     }
 
+    /// Brings fields up to date that the steps leave behind. Between segments only: passes rest while the clock does.
+    fn refresh(&mut self, fields: &[Field]) -> Result<(), String> {
+        let calls = step::before_fetch(&self.planner.method, fields);
+        if calls.is_empty() {
+            return Ok(());
+        }
+        let running = |value: u32| {
+            let place = offset_of!(Clock<f32>, running) as u64;
+            let clock = &self.tables.get("clock")?.buffer;
+            self.link.queue.write_buffer(clock, place, &value.to_ne_bytes());
+            Ok::<(), String>(())
+        };
+        let actions = self.planner.actions(&self.link, &self.tables, &calls)?;
+        running(1)?;
+        self.submit(&actions)?;
+        running(0)
+    }
+
     fn read_clock(&self) -> Result<Clock<f64>, String> {
         let mut encoder = self.link.encoder();
         encoder.copy_buffer_to_buffer(&self.tables.get("clock")?.buffer, 0, &self.clock, 0, CLOCK_BYTES);
@@ -246,6 +264,7 @@ impl Backend for Gpu {
     }
 
     fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String> {
+        self.refresh(fields)?;
         let tables = fields.iter().map(|&field| self.tables.field(field)).collect::<Result<Vec<_>, _>>()?;
         let wanted: Vec<_> = tables.iter().map(|table| (&table.buffer, table.bytes)).collect();
         let bytes = self.link.read(&wanted)?;

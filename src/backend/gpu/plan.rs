@@ -61,7 +61,7 @@ type Constants = Vec<(&'static str, u64)>;
 
 /// Makes commands, and keeps what it made.
 pub struct Planner {
-    method: Method,
+    pub method: Method,
     patch: Option<Patch>,
     modules: BTreeMap<Pass, Module>,
     pipelines: BTreeMap<(Pass, &'static str, Constants), ComputePipeline>,

@@ -1,0 +1,40 @@
+//! Energy of the hourglass term of one particle, V_a (alpha E/2) sum V_b w |H_a X_ab - u_ab|^2 with w = -W'(R)/R and
+//! the linear H: see [`super::bond_force`]. Run only when asked for. Twin: shaders/pass/hourglass_energy.wgsl
+
+use super::Stage;
+use crate::bond::{Source, displacement_difference, with_bonds};
+use crate::scene::file::Gradient;
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    let mut energies = std::mem::take(&mut state.particles.hourglass_energy);
+    with_bonds!(state, B => super::write(&mut energies, |a, slot| *slot = energy::<S, B>(state, a)));
+    state.particles.hourglass_energy = energies;
+}
+
+fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
+    let gradient = linear_gradient::<S, B>(state, a);
+    let mut sum = S::Real::of(0.0);
+    for block in B::blocks(state, a) {
+        for bond in block {
+            let stray = displacement_difference::<S, B>(state, a, &bond) + S::mat_vec(gradient, bond.row.x);
+            sum += S::inner(stray, stray) * (S::Real::of(-1.0) * bond.row.weight);
+        }
+    }
+    let stiffness = state.params.hourglass * state.body(a).youngs_modulus;
+    S::Real::of(0.5) * stiffness * state.particles.reference_volume[a] * sum
+}
+
+fn linear_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
+    let mut sum = S::Mat::default();
+    for block in B::blocks(state, a) {
+        for bond in block {
+            sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
+        }
+    }
+    if state.method.gradient == Gradient::Plain {
+        return sum;
+    }
+    S::mat_mat(sum, S::mat_of_sym(state.particles.reference_correction[a]))
+}
