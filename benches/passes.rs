@@ -1,6 +1,6 @@
 //! Time of every pass, particle-updates per core-second, and bytes per second beside a measured copy.
 //!
-//! `cargo bench --bench passes -- [particles …] [--gpu] [--method elastic|full]`
+//! `cargo bench --bench passes -- [particles …] [--gpu] [--method elastic|full|lagrangian|lagrangian_listed]`
 //!
 //! The body is a cube on a cubic lattice with h = 1.22 spacings, about 60 neighbours, kicked by a smooth wave.
 //! Machines are shared, so times on the CPU path are processor seconds, and the best of several rounds counts.
@@ -18,9 +18,12 @@ const ROUNDS: usize = 3;
 fn scene(particles: usize, method: &str) -> Scene {
     let side = (particles as f64).cbrt().round();
     let extras = match method {
+        "lagrangian" => "kind = \"total_lagrangian\"",
+        "lagrangian_listed" => "kind = \"total_lagrangian\"\nbond_table = false",
         "full" => "viscosity = { alpha = 1.0 }\nxsph = 0.5\nartificial_stress = { epsilon = 0.3 }",
         _ => "",
     };
+    let law = if method.starts_with("lagrangian") { "st_venant_kirchhoff" } else { "elastic" };
     let text = format!(
         r#"
 title = "benchmark cube"
@@ -34,6 +37,7 @@ anchor = [0.005, 0.005, 0.005]
 material = "rubber"
 motion = {{ wave = {{ amplitude = [0.1, 0, 0], wave_vector = [{k}, 0, 0] }} }}
 [material.rubber]
+law = "{law}"
 density = 1000
 youngs_modulus = 1e7
 poisson_ratio = 0.3

@@ -31,6 +31,8 @@ pub struct Method {
     pub body_force: bool,
     /// Energy against motions that the deformation gradient does not see.
     pub hourglass: bool,
+    /// On the CPU, keep the distinct bonds.
+    pub bond_table: bool,
     /// How surfaces touch.
     pub contact: Option<Potential>,
     pub viscosity: bool,

@@ -30,6 +30,9 @@ fn stress_evolves(method: &Method) -> bool {
 fn force(method: &Method, calls: &mut Vec<Call>) {
     if method.kind == Kind::TotalLagrangian {
         calls.extend([Pass::Deform, Pass::BondForce].map(call));
+        if method.viscosity {
+            calls.push(call(Pass::BondFriction));
+        }
         if method.contact.is_some() {
             calls.push(call(Pass::ContactForce));
         }

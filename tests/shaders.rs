@@ -87,6 +87,7 @@ fn random_method(random: &mut Random) -> Method {
         contact: None,
         laws: vec![Law::Elastic],
         hourglass: false,
+        bond_table: false,
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],
         integrator: [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)],
         density: [Density::Continuity, Density::Summation][random.below(2)],

@@ -4,7 +4,6 @@ use super::{Backend, Columns};
 use crate::bond::BondTable;
 use crate::particles::{Field, Type};
 use crate::pass::{Call, Pass, Stage};
-use crate::scene::file::Kind;
 use crate::smoothing::with_kernel;
 use crate::state::{Clock, State};
 use crate::step;
@@ -29,7 +28,7 @@ impl<S: Space> Cpu<S> {
     /// digit.
     fn tabulate(&mut self) {
         let state = &mut self.state;
-        if state.method.kind == Kind::TotalLagrangian {
+        if state.method.bond_table {
             state.bond_table = with_kernel!(state.method.smoothing, K => BondTable::new::<K>(state));
             let calls = step::prepare(&state.method);
             let after: Vec<Call> =

@@ -5,6 +5,7 @@
 
 mod bin_cells;
 mod bond_force;
+mod bond_friction;
 mod bound_time_step;
 mod contact_force;
 mod correct_gradient;
@@ -157,6 +158,7 @@ passes! {
     correct_quadratic: CorrectQuadratic, [main: Listed], "coefficients of the gradient that is exact for quadratic displacements";
     deform: Deform, [main: Listed], "deformation gradient, stress, and what the bonds carry of it";
     bond_force: BondForce, [main: Listed], "acceleration by the bonds of the reference configuration";
+    bond_friction: BondFriction, [main: Listed], "adds viscosity between the ends of bonds";
     hourglass_energy: HourglassEnergy, [main: Listed], "energy of the hourglass term, when asked for";
     find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";
     contact_force: ContactForce, [main: Particles], "adds the acceleration by contact";

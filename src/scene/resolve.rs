@@ -458,6 +458,7 @@ fn method(
         kind: f.kind,
         laws,
         hourglass: lagrangian && f.hourglass() > 0.0,
+        bond_table: lagrangian && f.bond_table.unwrap_or(true),
         shear: bodies.iter().any(|b| b.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
         coupling: coupling.iter().flatten().any(|&c| c != 1.0),
@@ -512,6 +513,9 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     let quadratic = f.gradient == Some(Gradient::Quadratic);
     refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {
         "the quadratic gradient belongs to formulation.kind `total_lagrangian`, and does not see mirror images: no [[symmetry]]".into()
+    })?;
+    refuse.unless(lagrangian || f.bond_table.is_none(), &["formulation", "bond_table"], || {
+        "bond_table belongs to formulation.kind `total_lagrangian`".into()
     })?;
     refuse.unless(lagrangian || f.hourglass.is_none(), &["formulation", "hourglass"], || {
         "hourglass belongs to formulation.kind `total_lagrangian`".into()

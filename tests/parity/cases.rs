@@ -156,7 +156,7 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             bodies: 2,
             laws: ["neo_hookean", "neo_hookean"],
             top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 2 } }]",
-            formulation: "kind = \"total_lagrangian\"",
+            formulation: "kind = \"total_lagrangian\"\nviscosity = { alpha = 1.0, softening = 0.01 }\ndissipated_energy = true",
             time: "integrator = \"rk2\"",
             ..BARE
         },

@@ -16,6 +16,7 @@ fn method() -> Method {
         kind: Default::default(),
         laws: vec![Default::default()],
         hourglass: false,
+        bond_table: false,
         contact: None,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,

@@ -1,0 +1,67 @@
+//! Adds Monaghan's viscosity between the ends of the bonds of the reference configuration,
+//!
+//! a_a -= sum m_b Pi_ab (dW/dR) x_ab/r_ab, Pi_ab = (-alpha c mu + beta mu^2)/rho_0, mu = h v_ab . x_ab/(r_ab^2 + softening h^2)
+//!
+//! while the two approach: Fuller (2.59), (2.60) with the sign mended, the kernel's slope at the distance in the
+//! reference configuration and the force along the present separation, so that angular momentum is kept.
+//! Twin: shaders/pass/bond_friction.wgsl
+
+use super::Stage;
+use crate::bond::{Bond, Source, displacement_difference, with_bonds};
+use crate::pair::mirror_vector;
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut sums = vec![(S::Vec::default(), S::Real::of(0.0)); state.params.count as usize];
+    with_bonds!(state, B => super::write(&mut sums, |a, slot| *slot = sum::<S, B>(state, a)));
+    let particles = &mut state.particles;
+    for (a, (acceleration, power)) in sums.into_iter().enumerate() {
+        particles.acceleration[a] += acceleration;
+        if state.method.dissipated_energy {
+            particles.dissipated_power[a] = power;
+        }
+    }
+}
+
+/// Acceleration, and half of the power that the bonds turn into heat, per mass.
+fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
+    let (mut acceleration, mut power) = (S::Vec::default(), S::Real::of(0.0));
+    for block in B::blocks(state, a) {
+        for bond in block {
+            let v_ba = velocity_difference::<S, B>(state, a, &bond);
+            let friction = friction::<S, B>(state, a, &bond, v_ba);
+            acceleration += friction;
+            power += S::Real::of(0.5) * S::inner(v_ba, friction);
+        }
+    }
+    (acceleration, power)
+}
+
+#[inline(always)]
+fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, v_ba: S::Vec) -> S::Vec {
+    let (params, body) = (&state.params, state.body(a));
+    let h = body.smoothing_length;
+    // x_a - x_b
+    let x = bond.row.x - displacement_difference::<S, B>(state, a, bond);
+    let square = S::inner(x, x);
+    let mu = (h * S::Real::of(-1.0) * S::inner(v_ba, x) / (square + params.softening * h * h)).min(S::Real::of(0.0));
+    let pi = (params.beta * mu - params.alpha * body.sound_speed) * mu;
+    let reference = S::inner(bond.row.x, bond.row.x).sqrt();
+    // The slope times V_b; m_b over rho_0 is V_b.
+    x * (S::Real::of(-1.0) * pi * bond.row.weight * reference / square.sqrt().max(S::Real::of(1e-6) * h))
+}
+
+/// v_b - v_a, the neighbour's velocity mirrored if it is an image.
+#[inline(always)]
+fn velocity_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
+    let velocity = &state.particles.velocity;
+    let mut v_b = velocity[bond.b];
+    if B::IMAGES && bond.image != 0 {
+        v_b = mirror_vector::<S>(&state.params, bond.image, v_b);
+    }
+    v_b - velocity[a]
+}
