@@ -261,7 +261,8 @@ pub fn fields(method: &Method) -> Vec<Field> {
 /// Every pass that a run of this method dispatches, each once, in order of first use.
 pub fn passes(method: &Method) -> Vec<Pass> {
     let mut list: Vec<Pass> = Vec::new();
-    for call in prepare(method).into_iter().chain(begin_segment(method)).chain(begin_run(method)).chain(step(method)) {
+    let before = prepare(method).into_iter().chain(begin_segment(method)).chain(begin_run(method));
+    for call in before.chain(step(method)).chain(before_fetch(method, &fields(method))) {
         if !list.contains(&call.pass) {
             list.push(call.pass);
         }

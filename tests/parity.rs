@@ -99,6 +99,7 @@ fn passes_agree_in_three_dimensions() {
 
 /// Every word that any method can have.
 fn all_flags() -> BTreeSet<&'static str> {
+    use lithosph::contact::Potential;
     use lithosph::material::Law;
     use lithosph::scene::file::{ArtificialForm, Density, Gradient, Kind};
     let mut words = BTreeSet::new();
@@ -113,7 +114,7 @@ fn all_flags() -> BTreeSet<&'static str> {
             kind,
             laws: vec![Law::NeoHookean, Law::Maxwell],
             hourglass: true,
-            gradient: Gradient::Adjoint,
+            gradient: if dimension == 3 { Gradient::Quadratic } else { Gradient::Adjoint },
             shear: true,
             many_bodies: true,
             coupling: true,
@@ -125,6 +126,7 @@ fn all_flags() -> BTreeSet<&'static str> {
             xsph: true,
             velocity_filter: true,
             artificial_stress: Some(form),
+            contact: Some(Potential::Barrier),
             internal_energy: true,
             dissipated_energy: true,
             compensated: true,

@@ -3,6 +3,7 @@
 #import invocation
 #import displacement_difference
 
+@group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
 @group(0) @binding(_) var<storage, read> reference_volume: array<real>;
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
@@ -14,7 +15,7 @@
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
     let row = index_of(invocation);
-    if row >= params.chunk {
+    if row >= params.chunk || clock.running == 0u {
         return;
     }
     let a = params.first + row;

@@ -8,6 +8,9 @@ use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
     let mut energies = std::mem::take(&mut state.particles.hourglass_energy);
     with_bonds!(state, B => super::write(&mut energies, |a, slot| *slot = energy::<S, B>(state, a)));
     state.particles.hourglass_energy = energies;
