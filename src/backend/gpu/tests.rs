@@ -5,6 +5,7 @@ use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
 use crate::particles::Particles;
+use crate::pass::{Pass, Stage};
 use crate::scene::file::{Density, Gradient, Integrator};
 use crate::smoothing::Smoothing;
 use crate::state::{Body, Method, REDUCTION_BLOCK, SCAN_BLOCK};
