@@ -46,7 +46,11 @@ fn try_case<W: Space<Real = f64>, N: Space<Real = f32>>(case: &Case, adapter: &w
     if calls.iter().any(|call| call.pass == Pass::Stress) {
         trial.run_long_stress();
     }
-    trial.run_ends();
+    if trial.truth.method.quasi_static.is_some() {
+        trial.run_descent_ends();
+    } else {
+        trial.run_ends();
+    }
     trial.assert_idle();
     if case.compensated {
         trial.truth = convert(&random_state::<N>(case, SEED + 1, SHORT));

@@ -67,9 +67,9 @@ fn reflection_tells_what_each_entry_point_uses() {
 }
 
 fn methods() -> Vec<Method> {
-    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+    use crate::scene::file::{ArtificialForm, Density, Descent, Gradient, Integrator, Kind};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 13] = [
+    let switches: [fn(&mut Method); 15] = [
         |_| (),
         |m| m.shear = true,
         |m| m.many_bodies = true,
@@ -83,6 +83,8 @@ fn methods() -> Vec<Method> {
         |m| (m.xsph, m.velocity_filter) = (false, true),
         |m| (m.internal_energy, m.dissipated_energy) = (true, true),
         |m| m.compensated = true,
+        |m| (m.kind, m.quasi_static) = (Kind::TotalLagrangian, Some(Descent::Fire)),
+        |m| (m.kind, m.quasi_static) = (Kind::TotalLagrangian, Some(Descent::KineticDamping)),
     ];
     let forms = [None, Some(ArtificialForm::Scalar), Some(ArtificialForm::Principal)];
     let mut list = Vec::new();
@@ -94,6 +96,7 @@ fn methods() -> Vec<Method> {
                 laws: vec![Default::default()],
                 hourglass: false,
                 contact: None,
+                quasi_static: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
