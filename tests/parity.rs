@@ -104,7 +104,7 @@ fn passes_agree_in_three_dimensions() {
 /// Every word that any method can have.
 fn all_flags() -> BTreeSet<&'static str> {
     use lithosph::material::Law;
-    use lithosph::scene::file::{ArtificialForm, Density, Gradient, Kind};
+    use lithosph::scene::file::{ArtificialForm, Density, Descent, Gradient, Kind};
     let mut words = BTreeSet::new();
     for (dimension, density, form, kind) in [
         (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
@@ -117,6 +117,7 @@ fn all_flags() -> BTreeSet<&'static str> {
             kind,
             laws: vec![Law::NeoHookean, Law::Maxwell],
             hourglass: true,
+            quasi_static: Some(Descent::Fire),
             gradient: Gradient::Adjoint,
             shear: true,
             many_bodies: true,

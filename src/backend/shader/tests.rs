@@ -67,9 +67,9 @@ fn reflection_tells_what_each_entry_point_uses() {
 }
 
 fn methods() -> Vec<Method> {
-    use crate::scene::file::{ArtificialForm, Density, Descent, Gradient, Integrator, Kind};
+    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 15] = [
+    let switches: [fn(&mut Method); 13] = [
         |_| (),
         |m| m.shear = true,
         |m| m.many_bodies = true,
@@ -83,8 +83,6 @@ fn methods() -> Vec<Method> {
         |m| (m.xsph, m.velocity_filter) = (false, true),
         |m| (m.internal_energy, m.dissipated_energy) = (true, true),
         |m| m.compensated = true,
-        |m| (m.kind, m.quasi_static) = (Kind::TotalLagrangian, Some(Descent::Fire)),
-        |m| (m.kind, m.quasi_static) = (Kind::TotalLagrangian, Some(Descent::KineticDamping)),
     ];
     let forms = [None, Some(ArtificialForm::Scalar), Some(ArtificialForm::Principal)];
     let mut list = Vec::new();
@@ -131,9 +129,9 @@ fn methods() -> Vec<Method> {
 
 /// Every set of laws, with each switch of the Total Lagrangian formulation alone and with all.
 fn lagrangian_methods(dimension: usize) -> Vec<Method> {
-    use crate::scene::file::{Density, Gradient, Integrator, Kind};
+    use crate::scene::file::{Density, Descent, Gradient, Integrator, Kind};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 8] = [
+    let switches: [fn(&mut Method); 10] = [
         |_| (),
         |m| m.hourglass = true,
         |m| m.gradient = Gradient::Plain,
@@ -142,6 +140,8 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         |m| m.symmetry = true,
         |m| m.periodic = true,
         |m| m.dissipated_energy = m.memory(),
+        |m| m.quasi_static = Some(Descent::Fire),
+        |m| m.quasi_static = Some(Descent::KineticDamping),
     ];
     let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
     let mut list = Vec::new();
@@ -150,6 +150,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
             dimension,
             kind: Kind::TotalLagrangian,
             contact: None,
+            quasi_static: None,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
             hourglass: false,
             smoothing: Smoothing::ALL[set % Smoothing::ALL.len()],
@@ -209,6 +210,8 @@ fn every_variant_of_every_pass_is_valid() {
 const TABLES: &[&str] = &[
     "params",
     "clock",
+    "balance",
+    "block_residual",
     "bodies",
     "coupling",
     "constraints",
