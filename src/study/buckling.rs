@@ -20,7 +20,7 @@ use std::path::Path as FilePath;
 const BRACKET: f64 = 1e-4;
 
 /// A scene that stops short of its critical load is followed beyond its end, up to so many times its load.
-const BEYOND: u32 = 4;
+const BEYOND: f64 = 4.0;
 
 /// What buckles, and when.
 #[derive(Debug, Clone)]
@@ -71,31 +71,30 @@ fn find_in<S: Space<Real = f64>>(scene: &Scene) -> Result<Buckling, String> {
     if path.go(0.0)?.negative() > 0 {
         return Err("the unloaded scene is not stable".into());
     }
-    let (mut low, mut high) = (0.0, None);
+    let part = bisect(&mut path, steps.load_steps)?;
+    let factors = path.go(part)?;
+    Ok(report(scene, &path, axis, part, &factors))
+}
+
+/// The first part of the load with a negative pivot, within [`BRACKET`]; leaves the path just before it.
+fn bisect<S: Space<Real = f64>>(path: &mut Path<S>, load_steps: u32) -> Result<f64, String> {
+    let (mut low, mut step) = (0.0, 1.0 / f64::from(load_steps));
     let mut kept = path.state.particles.displacement.clone();
-    for k in 1..=BEYOND * steps.load_steps {
-        let part = f64::from(k) / f64::from(steps.load_steps);
-        if path.go(part)?.negative() > 0 {
-            high = Some(part);
-            break;
+    let mut bracketed = false;
+    while !bracketed || step > BRACKET * low {
+        if low >= BEYOND {
+            return Err(format!("the scene does not buckle within {BEYOND} times its load"));
         }
-        low = part;
-        kept.clone_from(&path.state.particles.displacement);
-    }
-    let mut high = high.ok_or("the scene does not buckle within four times its load")?;
-    while high - low > BRACKET * high {
-        let middle = 0.5 * (low + high);
-        path.state.particles.displacement.clone_from(&kept);
-        if path.go(middle)?.negative() > 0 {
-            high = middle;
+        step *= if bracketed { 0.5 } else { 1.0 };
+        if path.go(low + step)?.negative() > 0 {
+            bracketed = true;
+            path.state.particles.displacement.clone_from(&kept);
         } else {
-            low = middle;
+            low += step;
             kept.clone_from(&path.state.particles.displacement);
         }
     }
-    path.state.particles.displacement.clone_from(&kept);
-    let factors = path.go(high)?;
-    Ok(report(scene, &path, axis, high, &factors))
+    Ok(low + step)
 }
 
 fn report<S: Space<Real = f64>>(scene: &Scene, path: &Path<S>, axis: usize, part: f64, factors: &Factors) -> Buckling {

@@ -3,6 +3,7 @@
 //! FIRE (Bitzek, Koskinen, Gaehler, Moseler & Gumbsch 2006, with their constants): v turns to the direction of the
 //! force, and the step grows while the power F.v is positive; else the particles stop and the step is halved. The
 //! kick comes before the drift, and a stop takes half a step back (Guenole et al. 2020).
+//! Twin: shaders/lib/descent.wgsl
 //!
 //! Kinetic damping (Cundall 1982): free motion, stopped where the kinetic energy would fall, half a step back.
 

@@ -49,30 +49,35 @@ impl Band {
         let largest = (0..self.size).map(|i| self.get(i, i).abs()).fold(0.0, f64::max);
         let mut pivots = vec![0.0; self.size];
         for row in 0..self.size {
-            let first = row.saturating_sub(self.width);
-            for column in first..row {
-                let from = first.max(column.saturating_sub(self.width));
-                let (left, right) = (self.place(row, from), self.place(column, from));
-                let count = column - from;
-                let (left, right) = (&self.entries[left..left + count], &self.entries[right..right + count]);
-                // Row `row` still holds L D; L of the earlier rows is whole.
-                let sum: f64 = left.iter().zip(right).map(|(a, b)| a * b).sum();
-                let place = self.place(row, column);
-                self.entries[place] -= sum;
-            }
-            let mut pivot = self.get(row, row);
-            for column in first..row {
-                let place = self.place(row, column);
-                let scaled = self.entries[place] / pivots[column];
-                pivot -= scaled * self.entries[place];
-                self.entries[place] = scaled;
-            }
+            let pivot = self.eliminate(row, &pivots);
             if pivot.abs() <= 1e-14 * largest {
                 return Err("some motion meets no resistance: hold the scene so that it cannot move as a whole".into());
             }
             pivots[row] = pivot;
         }
         Ok(Factors { lower: self, pivots })
+    }
+
+    /// Turns a row into that of L, from the rows before, which are; gives its pivot.
+    fn eliminate(&mut self, row: usize, pivots: &[f64]) -> f64 {
+        let first = row.saturating_sub(self.width);
+        for column in first..row {
+            let from = first.max(column.saturating_sub(self.width));
+            let (left, right, count) = (self.place(row, from), self.place(column, from), column - from);
+            let (left, right) = (&self.entries[left..left + count], &self.entries[right..right + count]);
+            // This row still holds L D.
+            let sum: f64 = left.iter().zip(right).map(|(a, b)| a * b).sum();
+            let place = self.place(row, column);
+            self.entries[place] -= sum;
+        }
+        let mut pivot = self.get(row, row);
+        for column in first..row {
+            let place = self.place(row, column);
+            let scaled = self.entries[place] / pivots[column];
+            pivot -= scaled * self.entries[place];
+            self.entries[place] = scaled;
+        }
+        pivot
     }
 }
 
