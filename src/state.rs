@@ -56,6 +56,7 @@ impl Method {
     }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {
+        let eulerian = self.kind == Kind::Eulerian;
         let all = [
             ("line", self.dimension == 1),
             ("plane", self.dimension == 2),
@@ -66,7 +67,7 @@ impl Method {
             ("contact", self.contact.is_some()),
             ("listed_again", self.listed_again()),
             ("memory", self.memory()),
-            ("shear", self.shear),
+            ("shear", eulerian && self.shear),
             ("many_bodies", self.many_bodies),
             ("coupling", self.coupling),
             ("constraints", self.constraints),
@@ -78,7 +79,7 @@ impl Method {
             ("artificial_stress", self.artificial_stress.is_some()),
             ("scalar_form", self.artificial_stress == Some(ArtificialForm::Scalar)),
             ("principal_form", self.artificial_stress == Some(ArtificialForm::Principal)),
-            ("continuity", self.density == Density::Continuity),
+            ("continuity", eulerian && self.density == Density::Continuity),
             ("correct_rate", self.gradient != Gradient::Plain),
             ("quadratic_gradient", self.gradient == Gradient::Quadratic),
             ("adjoint", self.gradient == Gradient::Adjoint),
