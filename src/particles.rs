@@ -124,6 +124,7 @@ fields! {
     velocity: Velocity, Vec, VELOCITY, true, "velocity";
     velocity_carry: VelocityCarry, Vec, VELOCITY, true, "digits that f32 lost in the velocity's last sum";
     acceleration: Acceleration, Vec, ACCELERATION, true, "force over mass, before constraints";
+    equilibrium_displacement: EquilibriumDisplacement, Vec, LENGTH, true, "displacement in equilibrium at the load step before";
     volumetric_strain: VolumetricStrain, Real, NONE, true, "reference density over density, minus 1";
     deviatoric_stress: DeviatoricStress, Sym, STRESS, true, "stress less its mean";
     displacement_gradient: DisplacementGradient, Mat, NONE, true, "H = F - 1: derivative of the displacement by the reference position";

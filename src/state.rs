@@ -5,7 +5,7 @@ use crate::bond::BondTable;
 use crate::contact::Potential;
 use crate::material::Law;
 use crate::particles::Particles;
-use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
+use crate::scene::file::{ArtificialForm, Density, Descent, Gradient, Integrator, Kind};
 use crate::smoothing::Smoothing;
 use crate::tensor::{Real, Space};
 
@@ -18,6 +18,8 @@ pub struct Method {
     pub laws: Vec<Law>,
     pub smoothing: Smoothing,
     pub integrator: Integrator,
+    /// Equilibrium instead of motion, and how it is found.
+    pub quasi_static: Option<Descent>,
     pub density: Density,
     pub gradient: Gradient,
     /// Some material resists shear.
@@ -56,16 +58,18 @@ impl Method {
     }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {
+        let eulerian = self.kind == Kind::Eulerian;
         let all = [
             ("line", self.dimension == 1),
             ("plane", self.dimension == 2),
             ("solid", self.dimension == 3),
             ("total_lagrangian", self.kind == Kind::TotalLagrangian),
+            ("fire", self.quasi_static == Some(Descent::Fire)),
             ("hourglass", self.hourglass),
             ("contact", self.contact.is_some()),
             ("listed_again", self.listed_again()),
             ("memory", self.memory()),
-            ("shear", self.shear),
+            ("shear", eulerian && self.shear),
             ("many_bodies", self.many_bodies),
             ("coupling", self.coupling),
             ("constraints", self.constraints),
@@ -77,7 +81,7 @@ impl Method {
             ("artificial_stress", self.artificial_stress.is_some()),
             ("scalar_form", self.artificial_stress == Some(ArtificialForm::Scalar)),
             ("principal_form", self.artificial_stress == Some(ArtificialForm::Principal)),
-            ("continuity", self.density == Density::Continuity),
+            ("continuity", eulerian && self.density == Density::Continuity),
             ("correct_rate", self.gradient != Gradient::Plain),
             ("quadratic_gradient", self.gradient == Gradient::Quadratic),
             ("adjoint", self.gradient == Gradient::Adjoint),
@@ -148,6 +152,10 @@ pub struct Params<R> {
     pub cfl: R,
     /// Fixed time step, or 0.
     pub fixed_step: R,
+    /// Out-of-balance force over the force scale at which a load step ends.
+    pub residual: R,
+    /// Part of the load that is added in a unit of pseudo-time.
+    pub load_rate: R,
 }
 
 /// Numbers of one body and its material. Twin: `Body` in `shaders/lib/params.wgsl`.
@@ -226,6 +234,8 @@ pub struct Clock<R> {
     pub lists_built: u32,
     /// What went wrong, as [`Fault`] numbers it; 0 while all is well.
     pub fault: u32,
+    /// Out-of-balance force over the force scale, where equilibrium is sought.
+    pub residual: R,
 }
 
 impl<R: Real> Clock<R> {
@@ -242,8 +252,28 @@ impl<R: Real> Clock<R> {
             rebuild: self.rebuild,
             lists_built: self.lists_built,
             fault: self.fault,
+            residual: self.residual.f64(),
         }
     }
+}
+
+/// How the descent to equilibrium goes on. Twin: `Balance` in `shaders/lib/params.wgsl`.
+///
+/// A step does u += back v, then v = keep v + push a, then u += forward v.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct Balance<R> {
+    pub back: R,
+    pub keep: R,
+    pub push: R,
+    pub forward: R,
+    /// Part of the velocity that FIRE turns to the direction of the force.
+    pub mixing: R,
+    /// Longest step that is stable.
+    pub longest: R,
+    /// Steps since the power of the forces was last negative.
+    pub downhill: u32,
+    pub padding: u32,
 }
 
 /// Reasons for a device to stop.
@@ -252,11 +282,14 @@ pub enum Fault {
     ListFull = 1,
     NotFinite = 2,
     Inverted = 3,
+    NoEquilibrium = 4,
 }
 
 impl Fault {
     pub fn from_number(number: u32) -> Option<Self> {
-        [Fault::ListFull, Fault::NotFinite, Fault::Inverted].into_iter().find(|fault| *fault as u32 == number)
+        [Fault::ListFull, Fault::NotFinite, Fault::Inverted, Fault::NoEquilibrium]
+            .into_iter()
+            .find(|fault| *fault as u32 == number)
     }
     pub fn sentence(self) -> &'static str {
         match self {
@@ -265,6 +298,7 @@ impl Fault {
             }
             Fault::NotFinite => "a velocity or stress is no longer a number; the time step may be too long",
             Fault::Inverted => "a particle's volume fell to zero or below; the time step may be too long or the load too great",
+            Fault::NoEquilibrium => "no equilibrium was found within quasi_static.most_steps",
         }
     }
 }
@@ -306,6 +340,10 @@ pub struct State<S: Space> {
     pub bond_table: BondTable<S>,
     /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
     pub block_bound: Vec<[S::Real; 4]>,
+    /// How the descent to equilibrium goes on.
+    pub balance: Balance<S::Real>,
+    /// What `bound_residual` finds in each block; empty unless equilibrium is sought.
+    pub block_residual: Vec<[S::Real; 8]>,
 }
 
 impl<S: Space> State<S> {
@@ -365,5 +403,24 @@ impl<S: Space> State<S> {
             }
         }
         points[points.len() - 1][1]
+    }
+
+    /// Integral of a boundary condition's course between two absolute times.
+    pub fn course_integral(&self, constraint: &Constraint<S::Real>, from: S::Real, to: S::Real) -> S::Real {
+        let first = constraint.course_first as usize;
+        let points = &self.course[first..first + constraint.course_count as usize];
+        let Some(&[first_time, first_factor]) = points.first() else { return to - from };
+        let [last_time, last_factor] = points[points.len() - 1];
+        let zero = S::Real::of(0.0);
+        let mut sum = first_factor * (to.min(first_time) - from).max(zero) + last_factor * (to - from.max(last_time)).max(zero);
+        for pair in points.windows(2) {
+            let ([t0, f0], [t1, f1]) = (pair[0], pair[1]);
+            let (low, high) = (from.max(t0), to.min(t1));
+            if high > low {
+                let middle = S::Real::of(0.5) * (low + high);
+                sum += (high - low) * (f0 + (f1 - f0) * (middle - t0) / (t1 - t0));
+            }
+        }
+        sum
     }
 }

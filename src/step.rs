@@ -76,7 +76,13 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
     if method.kind == Kind::Eulerian {
         order(false, &mut calls);
     }
-    find_contacts(method, &mut calls);
+    if method.quasi_static.is_some() {
+        calls.push(call(Pass::BeginLoad));
+        find_contacts(method, &mut calls);
+        force(method, &mut calls);
+    } else {
+        find_contacts(method, &mut calls);
+    }
     calls
 }
 
@@ -91,13 +97,27 @@ fn find_contacts(method: &Method, calls: &mut Vec<Call>) {
 /// Passes that follow once before the first step of a run: leapfrog needs the first acceleration.
 pub fn begin_run(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
-    force(method, &mut calls);
+    if method.quasi_static.is_none() {
+        force(method, &mut calls);
+    }
     calls
 }
 
-/// One time step.
+/// The pass that ends a step, and that bounds the first of a segment.
+pub fn bound(method: &Method) -> Call {
+    call(if method.quasi_static.is_some() { Pass::BoundResidual } else { Pass::BoundTimeStep })
+}
+
+/// One time step, or one step of the descent to equilibrium.
 pub fn step(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
+    if method.quasi_static.is_some() {
+        calls.push(call(Pass::Descend));
+        find_contacts(method, &mut calls);
+        force(method, &mut calls);
+        calls.push(bound(method));
+        return calls;
+    }
     find_contacts(method, &mut calls);
     calls.extend(match method.integrator {
         Integrator::Leapfrog => leapfrog(method),
@@ -109,7 +129,7 @@ pub fn step(method: &Method) -> Vec<Call> {
     if method.velocity_filter {
         calls.extend([Pass::SmoothVelocity, Pass::FilterVelocity].map(call));
     }
-    calls.push(call(Pass::BoundTimeStep));
+    calls.push(bound(method));
     calls
 }
 
@@ -238,7 +258,9 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (method.memory(), &[ViscousStrain]),
         (method.many_bodies, &[Body]),
         (method.constraints, &[Field::Constraint]),
-        (method.compensated, &[DisplacementCarry, VelocityCarry]),
+        (method.compensated, &[DisplacementCarry]),
+        (method.compensated && method.quasi_static.is_none(), &[VelocityCarry]),
+        (method.quasi_static.is_some(), &[EquilibriumDisplacement]),
         (shear, &[DeviatoricStress]),
         (method.internal_energy, &[InternalEnergy, InternalPower]),
         (method.dissipated_energy, &[DissipatedEnergy, DissipatedPower]),

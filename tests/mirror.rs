@@ -3,7 +3,7 @@
 use lithosph::backend::shader::{compose, offsets};
 use lithosph::pass::Pass;
 use lithosph::scene::Scene;
-use lithosph::state::{Body, Clock, Constraint, Method, Params};
+use lithosph::state::{Balance, Body, Clock, Constraint, Method, Params};
 use std::mem::offset_of;
 
 /// The text of a pass that uses every structure.
@@ -38,7 +38,7 @@ fn params_mirror_the_shader_s() {
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
         artificial_exponent, contact_capacity, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
         body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
-        artificial_epsilon, artificial_weight, cfl, fixed_step,
+        artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate,
     );
     // Bound alone, in a buffer rounded up to the alignment of a vec4.
     assert_eq!(size_of::<Params<f32>>().next_multiple_of(16), span("Params") as usize);
@@ -60,7 +60,13 @@ fn constraints_mirror_the_shader_s() {
 #[test]
 fn clocks_mirror_the_shader_s() {
     assert_mirrors!(Clock:
-        start, elapsed, elapsed_carry, step, duration, steps_left, steps_done, running, rebuild, lists_built, fault,
+        start, elapsed, elapsed_carry, step, duration, steps_left, steps_done, running, rebuild, lists_built, fault, residual,
     );
     assert_eq!(size_of::<Clock<f32>>(), span("Clock") as usize);
+}
+
+#[test]
+fn balances_mirror_the_shader_s() {
+    assert_mirrors!(Balance: back, keep, push, forward, mixing, longest, downhill, padding);
+    assert_eq!(size_of::<Balance<f32>>(), span("Balance") as usize);
 }

@@ -46,7 +46,11 @@ fn try_case<W: Space<Real = f64>, N: Space<Real = f32>>(case: &Case, adapter: &w
     if calls.iter().any(|call| call.pass == Pass::Stress) {
         trial.run_long_stress();
     }
-    trial.run_ends();
+    if trial.truth.method.quasi_static.is_some() {
+        trial.run_descent_ends();
+    } else {
+        trial.run_ends();
+    }
     trial.assert_idle();
     if case.compensated {
         trial.truth = convert(&random_state::<N>(case, SEED + 1, SHORT));
@@ -101,7 +105,7 @@ fn passes_agree_in_three_dimensions() {
 fn all_flags() -> BTreeSet<&'static str> {
     use lithosph::contact::Potential;
     use lithosph::material::Law;
-    use lithosph::scene::file::{ArtificialForm, Density, Gradient, Kind};
+    use lithosph::scene::file::{ArtificialForm, Density, Descent, Gradient, Kind};
     let mut words = BTreeSet::new();
     for (dimension, density, form, kind) in [
         (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
@@ -115,6 +119,7 @@ fn all_flags() -> BTreeSet<&'static str> {
             laws: vec![Law::NeoHookean, Law::Maxwell],
             hourglass: true,
             gradient: if dimension == 3 { Gradient::Quadratic } else { Gradient::Adjoint },
+            quasi_static: Some(Descent::Fire),
             shear: true,
             many_bodies: true,
             coupling: true,

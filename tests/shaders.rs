@@ -85,6 +85,7 @@ fn random_method(random: &mut Random) -> Method {
         dimension: 1 + random.below(3),
         kind: Kind::Eulerian,
         contact: None,
+        quasi_static: None,
         laws: vec![Law::Elastic],
         hourglass: false,
         bond_table: false,

@@ -43,6 +43,8 @@ struct Params {
     artificial_weight: real,
     cfl: real,
     fixed_step: real,
+    residual: real,
+    load_rate: real,
 }
 
 struct Body {
@@ -86,11 +88,25 @@ struct Clock {
     rebuild: u32,
     lists_built: u32,
     fault: u32,
+    residual: real,
+}
+
+// A step of the descent to equilibrium does u += back v, then v = keep v + push a, then u += forward v.
+struct Balance {
+    back: real,
+    keep: real,
+    push: real,
+    forward: real,
+    mixing: real,
+    longest: real,
+    downhill: u32,
+    padding: u32,
 }
 
 const LIST_FULL: u32 = 1u;
 const NOT_FINITE: u32 = 2u;
 const INVERTED: u32 = 3u;
+const NO_EQUILIBRIUM: u32 = 4u;
 
 // Low bits of a neighbour-list entry: the neighbour; the three bits above: the planes it is mirrored in.
 const NEIGHBOR_BITS: u32 = 29u;

@@ -3,7 +3,7 @@
 use super::{Backend, Columns};
 use crate::bond::BondTable;
 use crate::particles::{Field, Type};
-use crate::pass::{Call, Pass, Stage};
+use crate::pass::{Call, Pass};
 use crate::smoothing::with_kernel;
 use crate::state::{Clock, State};
 use crate::step;
@@ -71,6 +71,7 @@ impl<S: Space> Backend for Cpu<S> {
             running: 1,
             rebuild: 1,
             fault: 0,
+            residual: zero,
             ..self.state.clock
         };
         let method = self.state.method.clone();
@@ -82,7 +83,7 @@ impl<S: Space> Backend for Cpu<S> {
         if first {
             self.run(&step::begin_run(&method));
         }
-        self.run(&[Call { pass: Pass::BoundTimeStep, stage: Stage::default() }]);
+        self.run(&[step::bound(&method)]);
         Ok(())
     }
 

@@ -29,6 +29,7 @@ pub enum Choice {
 /// Opens the backend for a scene; says in one line on stderr where `Auto` found no GPU.
 pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> {
     let adapter = match choice {
+        Choice::Auto if residual_of(scene) < LEAST_RESIDUAL => None,
         Choice::Auto => {
             let found = device::choose(device::Want::Auto, None)?;
             if found.is_none() {
@@ -45,6 +46,13 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
         Choice::Cpu | Choice::Cpu32 => None,
     };
     budget(scene, adapter.as_ref(), choice)?;
+    if (adapter.is_some() || *choice == Choice::Cpu32) && residual_of(scene) < LEAST_RESIDUAL {
+        return Err(format!(
+            "{}: quasi_static.residual is {:e}, and f32 does not reach below {LEAST_RESIDUAL:e}: run it on the CPU in f64",
+            scene.label(),
+            residual_of(scene)
+        ));
+    }
     match (scene.dimension(), adapter, choice) {
         (1, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Line<f32>>(true))?)),
         (2, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Plane<f32>>(true))?)),
@@ -56,6 +64,13 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
         (2, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Plane<f64>>(false)))),
         (_, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Solid<f64>>(false)))),
     }
+}
+
+/// Smallest quasi_static.residual that f32 is trusted with: rounding of the strains alone leaves 1e-6 and more.
+const LEAST_RESIDUAL: f64 = 1e-5;
+
+fn residual_of(scene: &Scene) -> f64 {
+    scene.file.quasi_static.as_ref().map_or(f64::INFINITY, |q| q.residual)
 }
 
 /// Columns as the host keeps them: f64, padded as the space pads them; integers as whole numbers.

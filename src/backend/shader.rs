@@ -27,8 +27,8 @@ macro_rules! library {
 }
 
 library! {
-    lib: body, body_index, bond, contact_pair, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
-        moving_velocity, pair, pair_velocity, params, real, separation, strain, tensor_1d, tensor_2d, tensor_3d, visit_cells, volume;
+    lib: body, body_index, bond, contact_pair, descent, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
+        moving_velocity, pair, pair_velocity, params, real, separation, strain, tensor_1d, tensor_2d, tensor_3d, unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
 
@@ -38,6 +38,7 @@ const FLAGS: &[&str] = &[
     "plane",
     "solid",
     "total_lagrangian",
+    "fire",
     "hourglass",
     "contact",
     "listed_again",

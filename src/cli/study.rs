@@ -3,7 +3,9 @@
 use super::say;
 use crate::backend::Choice;
 use crate::run::Stop;
+use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
+use crate::study::buckling;
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -14,6 +16,20 @@ pub(super) enum Study {
     /// The matrix is the product of all --vary, else that of the scene's table `[study.accuracy]`, else of some
     /// smoothing lengths, integrators and Courant numbers. The same command goes on where a kill left it.
     Accuracy(AccuracyArgs),
+    /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
+    Buckling(BucklingArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BucklingArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Table of the buckling mode; out/study/SCENE[-VARIANT]-buckling.csv unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -63,7 +79,23 @@ impl PlaceWord {
 
 /// Does a study; gives the exit code.
 pub(super) fn study(study: &Study) -> Result<i32, Stop> {
-    let Study::Accuracy(args) = study;
+    match study {
+        Study::Accuracy(args) => accuracy(args),
+        Study::Buckling(args) => buckling(args),
+    }
+}
+
+fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
+    let scene = Scene::open_flawless(&args.scene, args.variant.as_deref(), &args.set).map_err(Stop::Refused)?;
+    let found = buckling::find(&scene).map_err(Stop::Failed)?;
+    let usual = || PathBuf::from(format!("out/study/{}-buckling.csv", scene.label()));
+    let path = args.out.clone().unwrap_or_else(usual);
+    buckling::write_mode(&scene, &found, &path).map_err(Stop::Failed)?;
+    say(&format!("{}mode written to {}", found.text(), path.display()));
+    Ok(0)
+}
+
+fn accuracy(args: &AccuracyArgs) -> Result<i32, Stop> {
     let mut places = args.backend_list.clone();
     places.sort_unstable();
     places.dedup();

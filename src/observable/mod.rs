@@ -80,6 +80,7 @@ pub static KINDS: &[Kind] = &[
     result::GROWTH_RATE,
     result::RATIO,
     result::RMS,
+    result::SOUTHWELL,
     profile::PROFILE,
 ];
 

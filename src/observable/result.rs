@@ -92,3 +92,25 @@ pub const RMS: Kind = Kind {
         Ok((rows.iter().map(|r| r.1 * r.1).sum::<f64>() / rows.len() as f64).sqrt())
     }),
 };
+
+/// Slope of deflection against deflection over load by least squares: Southwell 1932.
+fn southwell(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let loads = table.window(typed.over.as_deref().unwrap_or_default(), typed)?;
+    let pairs = table.of(typed)?.into_iter().zip(loads).filter(|(_, load)| load.1 != 0.0);
+    let rows: Vec<(f64, f64)> = pairs.map(|(deflection, load)| (deflection.1.abs(), (deflection.1 / load.1).abs())).collect();
+    if rows.len() < 3 {
+        return Err("a Southwell line needs at least three rows under load".into());
+    }
+    let n = rows.len() as f64;
+    let (x, y) = (rows.iter().map(|r| r.0).sum::<f64>() / n, rows.iter().map(|r| r.1).sum::<f64>() / n);
+    let (up, down) = rows.iter().fold((0.0, 0.0), |(u, d), r| (u + (r.0 - x) * (r.1 - y), d + (r.0 - x).powi(2)));
+    Ok(down / up)
+}
+
+pub const SOUTHWELL: Kind = Kind {
+    word: "southwell",
+    about: "buckling load: slope of series `of`, a deflection, against itself over series `over`, the load",
+    needs: &["of", "over"],
+    fields: &[],
+    value: Value::Result(southwell),
+};

@@ -3,15 +3,18 @@
 //! A pass writes only to particle (or cell, or block) i. Twins have the shape of their shader without its
 //! machinery: the loop over i is [`write`], which runs on all cores.
 
+mod begin_load;
 mod bin_cells;
 mod bond_force;
 mod bond_friction;
+mod bound_residual;
 mod bound_time_step;
 mod contact_force;
 mod correct_gradient;
 mod correct_quadratic;
 mod correct_reference;
 mod deform;
+mod descend;
 mod drift;
 mod fill_cells;
 mod filter_velocity;
@@ -30,6 +33,8 @@ mod strain_rate;
 mod stress;
 mod stress_rate;
 mod sum_density;
+
+pub use bound_residual::{force_scale, unbalanced};
 
 use crate::state::State;
 use crate::tensor::Space;
@@ -167,6 +172,9 @@ passes! {
     kick: Kick, [main: Particles], "advances the velocity by a part of the step";
     drift: Drift, [main: Particles], "advances the displacement by a part of the step";
     runge_kutta: RungeKutta, [main: Particles], "adds a stage's rates and sets the next stage's state";
+    begin_load: BeginLoad, [main: Particles], "moves what is held by a load step, and predicts the rest";
+    descend: Descend, [main: Particles], "moves free particles toward equilibrium";
+    bound_residual: BoundResidual, [blocks: ReductionBlocks, advance: One], "finds how far from equilibrium the particles are, and how to go on";
     bound_time_step: BoundTimeStep, [blocks: ReductionBlocks, advance: One], "advances the clock; finds the next step, whether the list still holds, and faults";
 }
 

@@ -88,7 +88,7 @@ impl Files {
         }
         #[cfg(feature = "hdf5")]
         output::vtkhdf::truncate_after(&folder.join("particles.vtkhdf"), time)?;
-        let interval = scene.file.output.frames.unwrap_or(scene.file.duration / 10.0);
+        let interval = scene.file.frames();
         let frames = (time / interval + 1e-9) as usize + 1;
         Ok((Self { series: Some(Series::open_append(&path)?), folder, frames, painter: painter(options)? }, table))
     }

@@ -93,6 +93,8 @@ struct Schedule {
     /// 0 for none.
     frames: f64,
     duration: f64,
+    /// Load steps, each of which is a row; 0 where time goes on.
+    load_steps: u32,
 }
 
 impl Schedule {
@@ -100,13 +102,25 @@ impl Schedule {
         let (file, output) = (&scene.file, &scene.file.output);
         Self {
             series: output.series.unwrap_or(file.duration / 100.0),
-            frames: output.frames.unwrap_or(file.duration / 10.0),
+            frames: file.frames(),
             duration: file.duration,
+            load_steps: file.quasi_static.as_ref().map_or(0, |q| q.load_steps),
         }
+    }
+
+    /// Each load step is a row, and a frame where an interval between frames has passed.
+    fn load_events(&self) -> Vec<(f64, bool, bool)> {
+        let time = |k: u32| self.duration * f64::from(k) / f64::from(self.load_steps);
+        let interval = |k: u32| (time(k) / self.frames + 1e-9).floor();
+        let passed = |k: u32| k == 0 || k == self.load_steps || interval(k) > interval(k - 1);
+        (0..=self.load_steps).map(|k| (time(k), true, self.frames > 0.0 && passed(k))).collect()
     }
 
     /// All times in order, each with whether a row and whether a frame is due.
     fn events(&self) -> Vec<(f64, bool, bool)> {
+        if self.load_steps > 0 {
+            return self.load_events();
+        }
         let rounding = 1e-9 * self.duration;
         let count = |interval: f64| (self.duration / interval + 1e-9) as u64;
         let every = |interval: f64| -> Vec<f64> {
@@ -207,7 +221,8 @@ impl<'a> Run<'a> {
     }
 
     fn segment(&mut self, duration: f64, first: bool) -> Result<(), Stop> {
-        self.backend.begin_segment(self.time, duration, SEGMENT_STEPS, first).map_err(|e| self.fail(&e))
+        let steps = self.scene.file.quasi_static.as_ref().map_or(SEGMENT_STEPS, |q| q.most_steps);
+        self.backend.begin_segment(self.time, duration, steps, first).map_err(|e| self.fail(&e))
     }
 
     /// Advances to the end of a segment; gives the time that it covered.
@@ -219,7 +234,7 @@ impl<'a> Run<'a> {
             self.bar.set_position((1000.0 * now / self.scene.file.duration) as u64);
             self.bar.set_message(format!("t = {now:.4e}, step {}", self.steps));
             if let Some(fault) = Fault::from_number(clock.fault) {
-                return Err(self.fail(fault.sentence()));
+                return Err(self.fail(&self.sentence(fault, clock.residual)));
             }
             if INTERRUPTED.load(Ordering::Relaxed) {
                 return Err(Stop::Interrupted(format!("interrupted at t = {now:.6e}, step {}{}", self.steps, self.advice())));
@@ -227,6 +242,17 @@ impl<'a> Run<'a> {
             if clock.running == 0 {
                 return Ok(clock.elapsed);
             }
+        }
+    }
+
+    fn sentence(&self, fault: Fault, residual: f64) -> String {
+        match &self.scene.file.quasi_static {
+            Some(typed) if fault == Fault::NoEquilibrium => format!(
+                "no equilibrium within the {} steps of quasi_static.most_steps: the out-of-balance force is {residual:.1e} of the \
+                 force scale, and quasi_static.residual asks for {:.1e}",
+                typed.most_steps, typed.residual
+            ),
+            _ => fault.sentence().to_string(),
         }
     }
 
@@ -318,11 +344,21 @@ mod tests {
 
     #[test]
     fn events_hold_every_row_and_frame_once() {
-        let schedule = Schedule { series: 0.1, frames: 0.25, duration: 1.0 };
+        let schedule = Schedule { series: 0.1, frames: 0.25, duration: 1.0, load_steps: 0 };
         let events = schedule.events();
         assert_eq!(events.iter().filter(|e| e.1).count(), 11);
         assert_eq!(events.iter().filter(|e| e.2).count(), 5);
         assert_eq!(events.len(), 13);
+        assert_eq!(events.last().map(|e| e.0), Some(1.0));
+    }
+
+    #[test]
+    fn load_steps_are_rows_and_some_are_frames() {
+        let schedule = Schedule { series: 0.0, frames: 0.25, duration: 1.0, load_steps: 10 };
+        let events = schedule.events();
+        assert!(events.iter().all(|e| e.1));
+        let frames: Vec<usize> = (0..events.len()).filter(|&k| events[k].2).collect();
+        assert_eq!(frames, [0, 3, 5, 8, 10]);
         assert_eq!(events.last().map(|e| e.0), Some(1.0));
     }
 }

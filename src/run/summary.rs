@@ -37,7 +37,7 @@ pub struct Summary {
     pub seconds: f64,
     /// On all threads of this process, a software driver's too.
     pub processor_seconds: f64,
-    /// Steps times the force passes of a step.
+    /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
 }
 
@@ -51,6 +51,7 @@ impl Summary {
     ) -> Result<Self, String> {
         let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
         let forces = step::step(&scene.method).iter().filter(|call| call.pass.is_force()).count() as u64;
+        let begun = scene.file.quasi_static.as_ref().map_or(0, |typed| u64::from(typed.load_steps));
         let counts = backend.fetch(&[Field::NeighborCount])?;
         let particles = scene.particles.len();
         Ok(Self {
@@ -64,7 +65,7 @@ impl Summary {
             bytes: backend.bytes(),
             seconds,
             processor_seconds,
-            force_evaluations: u64::from(steps) * forces,
+            force_evaluations: u64::from(steps) * forces + begun,
         })
     }
 

@@ -49,6 +49,9 @@ pub struct File {
     pub kick: Vec<Kick>,
     #[serde(default)]
     pub time: Time,
+    /// Equilibrium at each of a number of load steps, instead of motion in time.
+    #[serde(default)]
+    pub quasi_static: Option<QuasiStatic>,
     #[serde(default)]
     pub output: Output,
     #[serde(default)]
@@ -67,6 +70,12 @@ impl File {
     pub fn list_margin(&self) -> f64 {
         let usual = if self.dimension == 3 { 0.08 } else { 0.15 };
         self.formulation.list_margin.unwrap_or(usual)
+    }
+
+    /// Time between frames, 0 for none: a tenth of the duration unless given, but no less than a load step.
+    pub fn frames(&self) -> f64 {
+        let least = self.quasi_static.as_ref().map_or(0.0, |q| self.duration / f64::from(q.load_steps));
+        self.output.frames.unwrap_or((self.duration / 10.0).max(least))
     }
 }
 
@@ -101,6 +110,8 @@ pub struct Body {
     pub spin_center: Option<Coordinates>,
     /// Initial velocity field by name, beside `velocity` and `spin`.
     pub motion: Option<Motion>,
+    /// Unstressed offset of the packed points, amplitude sin(wave_vector . x + phase): a flaw of shape.
+    pub flaw: Option<Wave>,
     /// Volume over unstressed volume at the start.
     pub relative_volume: Option<f64>,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
@@ -385,6 +396,42 @@ impl Default for Time {
     fn default() -> Self {
         Self { integrator: Integrator::Leapfrog, cfl: 0.3, step: None }
     }
+}
+
+/// The scene's duration is pseudo-time. Prescribed velocities, integrated over a load step, move what they hold at
+/// its start; forces and body force have their value at its end, and grow linearly from 0 over the duration
+/// where no course says otherwise.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuasiStatic {
+    #[serde(default)]
+    pub method: Descent,
+    pub load_steps: u32,
+    /// Largest out-of-balance force on what is free, over the force scale: see `src/pass/bound_residual.rs`.
+    #[serde(default = "default_residual")]
+    pub residual: f64,
+    /// Steps of the descent after which a load step is given up.
+    #[serde(default = "default_most_steps")]
+    pub most_steps: u32,
+}
+
+fn default_residual() -> f64 {
+    1e-5
+}
+
+fn default_most_steps() -> u32 {
+    100_000
+}
+
+/// How equilibrium is found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Descent {
+    /// Fast inertial relaxation engine: Bitzek et al. 2006.
+    #[default]
+    Fire,
+    /// Velocities are set to zero at each peak of the kinetic energy: Cundall 1982.
+    KineticDamping,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

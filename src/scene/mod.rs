@@ -6,6 +6,7 @@ mod clip;
 pub mod file;
 mod neighbors;
 pub mod packing;
+mod quasi_static;
 pub mod read;
 mod resolve;
 mod section;
@@ -120,6 +121,12 @@ impl Scene {
     /// The same from text.
     pub fn parse(text: &str, name: &str, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
         resolve::resolve(name.into(), read::read_text(text, name, variant, overrides)?)
+    }
+
+    /// [`Self::open`] without the flaws of the bodies' shapes.
+    pub fn open_flawless(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
+        let name = path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
+        resolve::resolve(name, read::read(path, variant, overrides)?.flawless())
     }
 
     pub fn dimension(&self) -> usize {

@@ -4,7 +4,7 @@ use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integ
 use super::packing::fill;
 use super::read::{Read, Source, hint};
 use super::shape::used;
-use super::{Body, Constraint, Particle, Plane, Scene, file};
+use super::{Body, Constraint, Particle, Plane, Scene, file, quasi_static};
 use crate::material::Law;
 use crate::state::{ContactPair, Method};
 use glam::DVec3;
@@ -44,21 +44,21 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
 }
 
 /// Makes the sentences of refusals.
-struct Refuse<'a> {
+pub(super) struct Refuse<'a> {
     source: &'a Source,
 }
 
 impl Refuse<'_> {
-    fn at(&self, path: &[&str], message: impl Into<String>) -> String {
+    pub(super) fn at(&self, path: &[&str], message: impl Into<String>) -> String {
         format!("{}: {}", self.source.place(path), message.into())
     }
-    fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
+    pub(super) fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
         if holds { Ok(()) } else { Err(self.at(path, message())) }
     }
 }
 
 /// A slip in the unit of time is refused at once instead of filling the memory with rows.
-const MOST_OUTPUTS: f64 = 1e6;
+pub(super) const MOST_OUTPUTS: f64 = 1e6;
 
 /// Single numbers that must lie in a range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
@@ -239,7 +239,8 @@ fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, 
             Particle {
                 body: k as u32,
                 constraint: 0,
-                position: point.position,
+                position: point.position
+                    + used(typed.flaw.as_ref().map_or(DVec3::ZERO, |w| wave(w, point.position)), file.dimension),
                 volume: point.volume / body.relative_volume,
                 velocity: used(velocity + spin + motion, file.dimension),
             }
@@ -265,8 +266,12 @@ fn moved(motion: &Motion, x: DVec3) -> DVec3 {
             let row = |k: usize| rows.get(k).map_or(0.0, |r| r.iter().zip(x.to_array()).map(|(a, b)| a * b).sum());
             DVec3::new(row(0), row(1), row(2))
         }
-        Motion::Wave(wave) => wave.amplitude.vector() * (wave.wave_vector.vector().dot(x) + wave.phase).sin(),
+        Motion::Wave(typed) => wave(typed, x),
     }
+}
+
+fn wave(wave: &file::Wave, x: DVec3) -> DVec3 {
+    wave.amplitude.vector() * (wave.wave_vector.vector().dot(x) + wave.phase).sin()
 }
 
 fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse: &Refuse) -> Result<Vec<Constraint>, String> {
@@ -445,6 +450,7 @@ fn method(
     })?;
     let lagrangian = f.kind == Kind::TotalLagrangian;
     lagrangian_only(file, bodies, refuse)?;
+    quasi_static::check(file, bodies, refuse)?;
     let mut laws: Vec<Law> = bodies.iter().map(|body| body.law).collect();
     laws.sort_unstable();
     laws.dedup();
@@ -453,6 +459,7 @@ fn method(
         dimension: file.dimension,
         smoothing: f.smoothing,
         integrator: file.time.integrator,
+        quasi_static: file.quasi_static.as_ref().map(|q| q.method),
         density: f.density,
         gradient: f.gradient(),
         kind: f.kind,

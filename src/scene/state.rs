@@ -4,7 +4,7 @@ use super::Scene;
 use super::file::{Kind, Viscosity};
 use crate::bond::BondTable;
 use crate::particles::{Field, Particles, Type};
-use crate::state::{Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Balance, Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
@@ -26,6 +26,7 @@ impl Scene {
         let mut method = self.method.clone();
         method.compensated = compensated;
         let params = self.params::<S::Real>();
+        let quasi_static = method.quasi_static.is_some();
         let (count, cells) = (self.particles.len(), params.cell_total as usize);
         let real = S::Real::of;
         let mut state = State {
@@ -46,6 +47,8 @@ impl Scene {
             contacts: vec![0; count * params.contact_capacity as usize],
             bond_table: BondTable::default(),
             block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
+            balance: Balance::default(),
+            block_residual: vec![[real(0.0); 8]; if quasi_static { count.div_ceil(REDUCTION_BLOCK) } else { 0 }],
         };
         self.fill_constraints(&mut state);
         self.fill_particles(&mut state);
@@ -222,6 +225,8 @@ impl Scene {
             artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
             cfl: real(self.file.time.cfl),
             fixed_step: real(self.file.time.step.unwrap_or(0.0)),
+            residual: real(self.file.quasi_static.as_ref().map_or(0.0, |q| q.residual)),
+            load_rate: real(if self.file.quasi_static.is_some() { 1.0 / self.file.duration } else { 0.0 }),
         }
     }
 

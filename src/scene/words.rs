@@ -33,8 +33,18 @@ const UNTAGGED: [(&str, &str); 2] = [
 ];
 
 /// Tables that someone may take for lists of tables.
-const TABLES: [&str; 9] =
-    ["formulation", "potential", "viscosity", "artificial_stress", "time", "output", "picture", "select", "study"];
+const TABLES: [&str; 10] = [
+    "quasi_static",
+    "formulation",
+    "potential",
+    "viscosity",
+    "artificial_stress",
+    "time",
+    "output",
+    "picture",
+    "select",
+    "study",
+];
 
 /// What belongs under `[study.accuracy]`; a path without its quotes makes a table.
 const STUDIED: &str = "a list of values under a path in quotes such as `\"time.cfl\" = [0.2, 0.4]`";

@@ -49,6 +49,11 @@ const BARE: Case = Case {
     time: "",
 };
 
+const FIRE: &str =
+    "cfl = 0.8\n[quasi_static]\nload_steps = 4\n[output]\nfields = []\npicture = { field = \"displacement.magnitude\" }";
+const KINETIC_DAMPING: &str = "cfl = 0.8\n[quasi_static]\nload_steps = 4\nmethod = \"kinetic_damping\"\n[output]\nfields = []\n\
+    picture = { field = \"displacement.magnitude\" }";
+
 /// The cases of one dimension.
 pub fn cases(dimension: usize) -> Vec<Case> {
     let list = [
@@ -165,6 +170,24 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             laws: ["neo_hookean", "neo_hookean"],
             formulation: "kind = \"total_lagrangian\"\ngradient = \"plain\"",
             time: "integrator = \"rk4\"",
+            ..BARE
+        },
+        Case {
+            name: "fire, planes, compensated",
+            planes: dimension,
+            boundary: true,
+            compensated: true,
+            laws: ["st_venant_kirchhoff"; 2],
+            formulation: "kind = \"total_lagrangian\"",
+            time: FIRE,
+            ..BARE
+        },
+        Case {
+            name: "kinetic damping, wendland",
+            units: STEEL,
+            laws: ["st_venant_kirchhoff"; 2],
+            formulation: "kind = \"total_lagrangian\"\nsmoothing = \"wendland\"",
+            time: KINETIC_DAMPING,
             ..BARE
         },
     ];

@@ -108,6 +108,7 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
             let c = &state.clock;
             Some(vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.fault])
         }
+        "balance" => Some(vec![state.balance.downhill]),
         "cell_count" => Some(state.cell_count.clone()),
         "cell_start" => Some(state.cell_start.clone()),
         "cell_block" => Some(state.cell_block.clone()),
@@ -148,8 +149,25 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
                 (ELAPSED, c.elapsed - c.elapsed_carry),
                 ("clock.step", c.step),
                 ("clock.duration", c.duration),
+                ("clock.residual", c.residual),
             ];
             parts.map(|(label, value)| one(label, vec![value])).to_vec()
+        }
+        "balance" => {
+            let b = &state.balance;
+            let parts = [
+                ("balance.back", b.back),
+                ("balance.keep", b.keep),
+                ("balance.push", b.push),
+                ("balance.forward", b.forward),
+                ("balance.mixing", b.mixing),
+                ("balance.longest", b.longest),
+            ];
+            parts.map(|(label, value)| one(label, vec![value.f64()])).to_vec()
+        }
+        "block_residual" => {
+            let column = |k: usize| state.block_residual.iter().map(|measure| measure[k].f64()).collect();
+            (0..8).map(|k| one(&format!("block_residual.{k}"), column(k))).collect()
         }
         "block_bound" => {
             let column = |k: usize| state.block_bound.iter().map(|bound| bound[k].f64()).collect();

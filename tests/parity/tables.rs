@@ -5,7 +5,7 @@ use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;
 use lithosph::particles::{Field, Particles, Type};
-use lithosph::state::{Body, Clock, Constraint, ContactPair, Params, SCAN_BLOCK, State};
+use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Params, SCAN_BLOCK, State};
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
@@ -26,6 +26,7 @@ fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
         "neighbors" => cast_slice(&state.neighbors),
         "contacts" => cast_slice(&state.contacts),
         "block_bound" => cast_slice(&state.block_bound),
+        "block_residual" => cast_slice(&state.block_residual),
         _ => state.particles.bytes(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
     }
 }
@@ -39,19 +40,22 @@ fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] 
         "neighbors" => cast_slice_mut(&mut state.neighbors),
         "contacts" => cast_slice_mut(&mut state.contacts),
         "block_bound" => cast_slice_mut(&mut state.block_bound),
+        "block_residual" => cast_slice_mut(&mut state.block_residual),
         _ => state.particles.bytes_mut(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
     }
 }
 
 /// Every table that a pass may write, the fields of this state among them.
 pub fn names<S: Space>(state: &State<S>) -> Vec<&'static str> {
-    TABLES.into_iter().chain(state.particles.present().into_iter().map(Field::name)).collect()
+    let sought: &[&str] = if state.method.quasi_static.is_some() { &["balance", "block_residual"] } else { &[] };
+    TABLES.into_iter().chain(sought.iter().copied()).chain(state.particles.present().into_iter().map(Field::name)).collect()
 }
 
 pub fn upload<S: Space<Real = f32>>(gpu: &mut Gpu, state: &State<S>) {
     for name in names(state) {
         match name {
             "clock" => gpu.write_table(name, bytes_of(&state.clock)).unwrap(),
+            "balance" => gpu.write_table(name, bytes_of(&state.balance)).unwrap(),
             _ => gpu.write_table(name, bytes(state, name)).unwrap(),
         }
     }
@@ -62,6 +66,7 @@ pub fn download<S: Space<Real = f32>>(gpu: &Gpu, state: &mut State<S>, names: &[
         let bytes = gpu.read_table(name).unwrap();
         match *name {
             "clock" => state.clock = pod_read_unaligned(&bytes),
+            "balance" => state.balance = pod_read_unaligned(&bytes),
             _ => bytes_mut(state, name).copy_from_slice(&bytes),
         }
     }
@@ -71,6 +76,7 @@ pub fn download<S: Space<Real = f32>>(gpu: &Gpu, state: &mut State<S>, names: &[
 pub fn different<S: Space<Real = f32>>(a: &State<S>, b: &State<S>) -> Vec<&'static str> {
     let differs = |name: &&str| match *name {
         "clock" => bytes_of(&a.clock) != bytes_of(&b.clock),
+        "balance" => a.balance != b.balance,
         name => bytes(a, name) != bytes(b, name),
     };
     names(b).into_iter().filter(differs).collect()
@@ -122,6 +128,8 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
             .collect(),
         bond_table: Default::default(),
         block_bound: from.block_bound.iter().map(|bound| bound.map(real)).collect(),
+        balance: balance(&from.balance, real),
+        block_residual: from.block_residual.iter().map(|measure| measure.map(real)).collect(),
     }
 }
 
@@ -154,6 +162,34 @@ fn clock<A: Real, B: Real>(from: &Clock<A>, real: impl Fn(A) -> B) -> Clock<B> {
         rebuild: from.rebuild,
         lists_built: from.lists_built,
         fault: from.fault,
+        residual: real(from.residual),
+    }
+}
+
+fn balance<A: Real, B: Real>(from: &Balance<A>, real: impl Fn(A) -> B) -> Balance<B> {
+    Balance {
+        back: real(from.back),
+        keep: real(from.keep),
+        push: real(from.push),
+        forward: real(from.forward),
+        mixing: real(from.mixing),
+        longest: real(from.longest),
+        downhill: from.downhill,
+        padding: from.padding,
+    }
+}
+
+/// As in the middle of a descent whose last step was taken back in part.
+fn balance_of(step: f32) -> Balance<f32> {
+    Balance {
+        back: -0.3 * step,
+        keep: 0.9,
+        push: 1.1 * step,
+        forward: step,
+        mixing: 0.1,
+        longest: 1.5 * step,
+        downhill: 7,
+        padding: 0,
     }
 }
 
@@ -168,7 +204,7 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
             artificial_exponent, zero, contact_capacity;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
             body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
-            artificial_epsilon, artificial_weight, cfl, fixed_step, contact_apart, contact_reach
+            artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach
     )
 }
 
@@ -184,6 +220,8 @@ pub fn random_state<S: Space<Real = f32>>(case: &Case, seed: u64, fraction: f32)
     // A particle on a mirror plane coincides with its image.
     state.particles.displacement[0] = S::Vec::default();
     state.clock = clock_of(&state, fraction);
+    state.balance = balance_of(state.clock.step);
+    state.block_residual.iter_mut().flatten().for_each(|number| *number = random.unit() as f32);
     // The counts are zero between lists; all else is made anew before it is read.
     for table in [&mut state.cell_start, &mut state.cell_block, &mut state.cell_particles, &mut state.neighbors] {
         table.iter_mut().for_each(|entry| *entry = random.word() as u32);
@@ -229,6 +267,7 @@ fn clock_of<S: Space<Real = f32>>(state: &State<S>, fraction: f32) -> Clock<f32>
         rebuild: 1,
         lists_built: 3,
         fault: 0,
+        residual: 0.3,
     }
 }
 
@@ -257,7 +296,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
         match field {
             ReferencePosition => f64::from(old),
             ReferenceVolume => f64::from(old) * (1.0 + 0.1 * random.signed()),
-            Displacement | DisplacementStart | ListedDisplacement => 0.01 * spacing * random.signed(),
+            Displacement | DisplacementStart | ListedDisplacement | EquilibriumDisplacement => 0.01 * spacing * random.signed(),
             DisplacementCarry => 0.01 * spacing * 2f64.powi(-25) * random.signed(),
             Velocity | VelocityStart | SmoothedVelocity | DisplacementSum => 0.1 * speed * random.signed(),
             VelocityCarry => 0.02 * speed * 2f64.powi(-25) * random.signed(),

@@ -2,6 +2,7 @@
 
 use crate::compare::{Row, Seen, assert_rounding_decides_nothing, compare};
 use crate::tables::{convert, different, download, names, upload};
+use bytemuck::bytes_of;
 use lithosph::backend::gpu::{Gpu, Options, Patch};
 use lithosph::backend::shader::{self, Kind, compose};
 use lithosph::particles::Field;
@@ -132,6 +133,37 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
             Clock { fault: 3, ..usual },
         ] {
             self.run_end(State { clock, ..calm.clone() });
+        }
+    }
+
+    /// Uphill, at the first step, in equilibrium, out of steps, and beyond a fault.
+    pub fn run_descent_ends(&mut self) {
+        let usual = State { clock: Clock { running: 1, rebuild: 1, ..self.before.clock }, ..self.before.clone() };
+        let bound = Call { pass: Pass::BoundResidual, stage: Stage::default() };
+        let mut end = |state: State<N>| {
+            self.truth = convert(&state);
+            self.gpu.write_table("params", bytes_of(&state.params)).unwrap();
+            self.run(bound);
+            self.truth.clock
+        };
+        let mut uphill = usual.clone();
+        for (v, a) in uphill.particles.velocity.iter_mut().zip(&uphill.particles.acceleration) {
+            *v = *a * -usual.clock.step;
+        }
+        assert_eq!(end(uphill).running, 1);
+        let mut downhill = usual.clone();
+        for (v, a) in downhill.particles.velocity.iter_mut().zip(&downhill.particles.acceleration) {
+            *v = *a * usual.clock.step;
+        }
+        assert_eq!(end(downhill).running, 1);
+        let mut found = usual.clone();
+        found.params.residual = 1e9;
+        let clock = end(found);
+        assert_eq!((clock.running, clock.elapsed), (0, clock.duration));
+        for clock in
+            [Clock { step: 0.0, ..usual.clock }, Clock { steps_left: 1, ..usual.clock }, Clock { fault: 3, ..usual.clock }]
+        {
+            end(State { clock, ..usual.clone() });
         }
     }
 

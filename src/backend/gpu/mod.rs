@@ -14,7 +14,7 @@ mod tests;
 use super::device::{DeviceInfo, TIMESTAMPS};
 use super::{Backend, Columns};
 use crate::particles::Field;
-use crate::pass::{Call, Pass, Stage};
+use crate::pass::Call;
 use crate::state::{Clock, Params, State};
 use crate::step;
 use crate::tensor::Space;
@@ -83,10 +83,10 @@ impl Gpu {
         let prepare = plan(&step::prepare(&state.method))?;
         let begin_segment = plan(&step::begin_segment(&state.method))?;
         let begin_run = plan(&step::begin_run(&state.method))?;
-        let bound = plan(&[Call { pass: Pass::BoundTimeStep, stage: Stage::default() }])?;
+        let bound = plan(&[step::bound(&state.method)])?;
         let step = plan(&step::step(&state.method))?;
         let clock = link.buffer("clock copy", CLOCK_BYTES, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
-        let (start, pace) = (f64::from(state.clock.start), Pace::new(state.params.count));
+        let (start, pace) = (f64::from(state.clock.start), Pace::new(state.params.count, state.method.quasi_static.is_some()));
         Ok(Self { link, info, tables, planner, prepare, begin_segment, begin_run, bound, step, clock, start, pace })
     }
 

@@ -19,12 +19,14 @@ pub struct Pace {
     steps_left: u32,
     pub steps_done: u32,
     fresh: bool,
+    /// The steps of a segment do not follow from its length: they descend to equilibrium.
+    descends: bool,
 }
 
 impl Pace {
-    pub fn new(particles: u32) -> Self {
+    pub fn new(particles: u32, descends: bool) -> Self {
         let least = if particles < FEW_PARTICLES { LEAST } else { 1 };
-        Self { least, seconds_per_step: None, step: 0.0, time_left: 0.0, steps_left: 0, steps_done: 0, fresh: true }
+        Self { least, seconds_per_step: None, step: 0.0, time_left: 0.0, steps_left: 0, steps_done: 0, fresh: true, descends }
     }
 
     pub fn begin_segment(&mut self, duration: f64, steps: u32) {
@@ -35,7 +37,7 @@ impl Pace {
     pub fn steps(&self) -> u32 {
         let affordable = self.seconds_per_step.map_or(self.least, |seconds| (TARGET / seconds) as u32);
         // Steps may grow shorter on the way; the rest then waits for the next batch.
-        let needed = if self.step > 0.0 { (self.time_left / self.step).ceil() as u32 } else { u32::MAX };
+        let needed = if self.step > 0.0 && !self.descends { (self.time_left / self.step).ceil() as u32 } else { u32::MAX };
         let needed = needed.saturating_add(1).min(self.steps_left);
         affordable.clamp(self.least, MOST).min(needed).max(1)
     }
@@ -67,7 +69,7 @@ mod tests {
 
     #[test]
     fn batches_grow_to_half_a_second_and_end_with_the_segment() {
-        let mut pace = Pace::new(1000);
+        let mut pace = Pace::new(1000, false);
         pace.begin_segment(1.0, 10_000);
         assert_eq!(pace.steps(), LEAST);
         pace.learn(&clock(0.05, 50), 0.05);
@@ -78,7 +80,7 @@ mod tests {
 
     #[test]
     fn slow_steps_come_few_at_a_time() {
-        let mut pace = Pace::new(2_000_000);
+        let mut pace = Pace::new(2_000_000, false);
         pace.begin_segment(1.0, 3);
         assert_eq!(pace.steps(), 1);
         pace.learn(&clock(0.001, 1), 0.2);

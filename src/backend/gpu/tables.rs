@@ -3,7 +3,7 @@
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
 use crate::particles::{Field, Type};
-use crate::state::{Body, Clock, Constraint, ContactPair, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::Space;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
@@ -18,7 +18,7 @@ macro_rules! plain {
         unsafe impl Pod for $name<f32> {}
     )* };
 }
-plain!(Params, Body, Constraint, ContactPair, Clock);
+plain!(Params, Body, Constraint, ContactPair, Clock, Balance);
 
 /// Bytes of the smallest buffer: no shader's element is larger.
 const SMALLEST: u64 = 64;
@@ -215,6 +215,8 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
         table("cell_start", cast_slice(&state.cell_start), 4 * (cells + 1)),
         table("cell_block", cast_slice(&state.cell_block), 4 * cells.div_ceil(SCAN_BLOCK)),
         table("cell_particles", cast_slice(&state.cell_particles), 4 * count),
+        table("balance", bytes_of(&state.balance), 0),
+        table("block_residual", cast_slice(&state.block_residual), 0),
         table("block_bound", cast_slice(&state.block_bound), 16 * count.div_ceil(REDUCTION_BLOCK)),
     ];
     list.extend(fields.iter().map(|&field| Content {

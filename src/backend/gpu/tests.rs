@@ -5,6 +5,7 @@ use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
 use crate::particles::Particles;
+use crate::pass::{Pass, Stage};
 use crate::scene::file::{Density, Gradient, Integrator};
 use crate::smoothing::Smoothing;
 use crate::state::{Body, Method, REDUCTION_BLOCK, SCAN_BLOCK};
@@ -18,6 +19,7 @@ fn method() -> Method {
         hourglass: false,
         bond_table: false,
         contact: None,
+        quasi_static: None,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,
         density: Density::Continuity,
@@ -90,12 +92,14 @@ fn state(side: usize) -> State<Plane<f32>> {
         contacts: Vec::new(),
         contact_pairs: Vec::new(),
         block_bound: Vec::new(),
+        balance: Default::default(),
+        block_residual: Vec::new(),
     }
 }
 
 const HEADER: &str = "
     struct Clock { start: f32, elapsed: f32, carry: f32, step: f32, duration: f32, steps_left: u32, steps_done: u32,
-        running: u32, rebuild: u32, lists_built: u32, fault: u32 }
+        running: u32, rebuild: u32, lists_built: u32, fault: u32, residual: f32 }
     struct Params { planes: array<vec4<f32>, 3>, count: u32, first: u32, chunk: u32, list_capacity: u32 }
     @group(0) @binding(0) var<uniform> params: Params;
     struct At { @builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,

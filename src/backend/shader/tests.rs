@@ -95,6 +95,7 @@ fn methods() -> Vec<Method> {
                 hourglass: false,
                 bond_table: false,
                 contact: None,
+                quasi_static: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
@@ -129,9 +130,9 @@ fn methods() -> Vec<Method> {
 
 /// Every set of laws, with each switch of the Total Lagrangian formulation alone and with all.
 fn lagrangian_methods(dimension: usize) -> Vec<Method> {
-    use crate::scene::file::{Density, Gradient, Integrator, Kind};
+    use crate::scene::file::{Density, Descent, Gradient, Integrator, Kind};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 8] = [
+    let switches: [fn(&mut Method); 10] = [
         |_| (),
         |m| m.hourglass = true,
         |m| m.gradient = Gradient::Plain,
@@ -140,6 +141,8 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         |m| m.symmetry = true,
         |m| m.periodic = true,
         |m| m.dissipated_energy = m.memory(),
+        |m| m.quasi_static = Some(Descent::Fire),
+        |m| m.quasi_static = Some(Descent::KineticDamping),
     ];
     let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
     let mut list = Vec::new();
@@ -148,6 +151,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
             dimension,
             kind: Kind::TotalLagrangian,
             contact: None,
+            quasi_static: None,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
             hourglass: false,
             bond_table: false,
@@ -208,6 +212,8 @@ fn every_variant_of_every_pass_is_valid() {
 const TABLES: &[&str] = &[
     "params",
     "clock",
+    "balance",
+    "block_residual",
     "bodies",
     "coupling",
     "constraints",

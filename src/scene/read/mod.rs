@@ -78,6 +78,12 @@ pub fn variants(path: &Path) -> Result<Vec<String>, String> {
 }
 
 impl Read {
+    /// The same with bodies of the shape that they are typed with.
+    pub fn flawless(mut self) -> Self {
+        self.file.body.iter_mut().for_each(|body| body.flaw = None);
+        self
+    }
+
     /// Merges and reads every variant of the scene, so that a mistake in one shows before it is chosen.
     ///
     /// # Errors

@@ -1,0 +1,76 @@
+// Begins a load step: what is held moves by the integral of its prescribed velocity over the load step, what is
+// free goes on as far as between the last two equilibria, and all velocities are set to zero.
+// Twin: src/pass/begin_load.rs
+#import invocation
+#import course
+#if compensated
+#import compensated
+#endif
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+// For `course` alone: this pass does not touch it.
+@group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> equilibrium_displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
+#if compensated
+@group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
+#endif
+#if constraints
+@group(0) @binding(_) var<storage, read> constraint: array<u32>;
+#endif
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let a = index_of(invocation);
+    if a >= params.count || clock.running == 0u {
+        return;
+    }
+    let before = displacement[a];
+    let increment = increment_of(a, before - equilibrium_displacement[a]);
+    equilibrium_displacement[a] = before;
+#if compensated
+    let result = compensated_add(before, displacement_carry[a], increment);
+    displacement[a] = result.sum;
+    displacement_carry[a] = result.carry;
+#else
+    displacement[a] = before + increment;
+#endif
+    velocity[a] = Vec();
+}
+
+// The last increment of what is free, and the prescribed one of what is held.
+fn increment_of(a: u32, last: Vec) -> Vec {
+#if constraints
+    if constraint[a] != 0u {
+        let condition = constraints[constraint[a] - 1u];
+        let time = course_integral(condition, clock.start, clock.start + clock.duration);
+        let vector = vec_of(condition.x, condition.y, condition.z) * time;
+        return select(last, vector, mask_of(condition.prescribed));
+    }
+#endif
+    return last;
+}
+
+#if constraints
+// Integral of a boundary condition's course between two absolute times.
+fn course_integral(condition: Constraint, start: real, end: real) -> real {
+    if condition.course_count == 0u {
+        return end - start;
+    }
+    var before = course[condition.course_first];
+    let last = course[condition.course_first + condition.course_count - 1u];
+    var sum = before.y * max(min(end, before.x) - start, 0.0) + last.y * max(end - max(start, last.x), 0.0);
+    for (var k = 1u; k < condition.course_count; k++) {
+        let point = course[condition.course_first + k];
+        let low = max(start, before.x);
+        let high = min(end, point.x);
+        if high > low {
+            let middle = 0.5 * (low + high);
+            sum += (high - low) * (before.y + (point.y - before.y) * (middle - before.x) / (point.x - before.x));
+        }
+        before = point;
+    }
+    return sum;
+}
+#endif

@@ -1,0 +1,38 @@
+// One step toward equilibrium: u += back v, then v = keep v + push a, then u += forward v, with a the out-of-balance
+// acceleration. Twin: src/pass/descend.rs
+#import invocation
+#import unbalanced
+#if compensated
+#import compensated
+#endif
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> balance: Balance;
+@group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
+#if compensated
+@group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
+#endif
+#if constraints
+@group(0) @binding(_) var<storage, read> constraint: array<u32>;
+#endif
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let a = index_of(invocation);
+    if a >= params.count || clock.running == 0u {
+        return;
+    }
+    let before = velocity[a];
+    let after = before * balance.keep + unbalanced(a) * balance.push;
+    let increment = before * balance.back + after * balance.forward;
+    velocity[a] = after;
+#if compensated
+    let result = compensated_add(displacement[a], displacement_carry[a], increment);
+    displacement[a] = result.sum;
+    displacement_carry[a] = result.carry;
+#else
+    displacement[a] += increment;
+#endif
+}
