@@ -454,12 +454,14 @@ pub struct Observe {
     pub axis: Option<String>,
     /// Another observable that this one is found from.
     pub of: Option<String>,
-    /// A second one, the divisor of a ratio.
+    /// A second one: the divisor of a ratio, what is taken off a swinging series, the other coordinate of a trace.
     pub over: Option<String>,
     /// Times between which it is found.
     pub between: Option<[f64; 2]>,
     /// Distance in spacings, speed, or whatever the kind takes.
     pub distance: Option<f64>,
+    /// Value whose crossings make a period.
+    pub level: Option<f64>,
 }
 
 /// What must come out.
@@ -471,9 +473,10 @@ pub struct Expect {
     /// The tolerance is a fraction of the value.
     pub relative: bool,
     pub reference: Option<String>,
-    /// Column of the abscissa (time, or position for a profile) and of the ordinate.
-    pub columns: Option<[String; 2]>,
+    /// Column of the abscissa (time, or position for a profile) and of the ordinate, or of both coordinates of a trace.
+    pub columns: Option<Vec<String>>,
     pub norm: Option<Norm>,
+    /// Range of a number that is known to miss, or with a reference of the distance from it.
     pub between: Option<[f64; 2]>,
     pub because: Option<String>,
     /// How one number is made of a series: final unless given.
