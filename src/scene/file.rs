@@ -115,6 +115,10 @@ pub enum Motion {
     Gradient(Vec<Vec<f64>>),
     /// v = amplitude sin(wave_vector . x + phase)
     Wave(Wave),
+    /// First mode of a clamped beam.
+    Cantilever(Cantilever),
+    /// A spin that grows from the root of a column to its end.
+    Twist(Twist),
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -124,6 +128,28 @@ pub struct Wave {
     pub wave_vector: Coordinates,
     #[serde(default)]
     pub phase: f64,
+}
+
+/// v = tip f(s)/f(1), f the first clamped-free mode, s the distance from the root along the axis over the length.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cantilever {
+    pub root: Coordinates,
+    pub axis: Coordinates,
+    pub length: f64,
+    /// Velocity of the free end.
+    pub tip: Coordinates,
+}
+
+/// v = rate sin(pi s/2) axis x (x - root), s the distance from the root along the axis over the length.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Twist {
+    pub root: Coordinates,
+    pub axis: Coordinates,
+    pub length: f64,
+    /// Angular velocity at the end.
+    pub rate: f64,
 }
 
 /// Extra velocity for the one particle nearest to a point.
