@@ -9,14 +9,18 @@ mod force;
 mod moment;
 mod momentum;
 mod neighborhood;
+mod oscillation;
+mod point;
 mod probe;
 mod profile;
 mod result;
 mod rotation;
+mod trace;
 
 pub use moment::{Moment, fields_of_path};
 pub use profile::profile;
 pub use result::Table;
+pub use trace::trace;
 
 use crate::particles::Field;
 use crate::scene::Scene;
@@ -40,6 +44,8 @@ pub enum Value {
     Series(fn(&Moment, &Observer) -> f64),
     Result(fn(&Table, &Observe) -> Result<f64, String>),
     Profile,
+    /// Two series as the path of a point.
+    Trace,
 }
 
 /// An observable of a scene, its selection resolved once.
@@ -70,6 +76,7 @@ pub static KINDS: &[Kind] = &[
     rotation::ANGLE,
     force::FORCE,
     probe::PROBE,
+    point::POINT,
     probe::MEAN,
     probe::LARGEST,
     probe::SMALLEST,
@@ -81,6 +88,12 @@ pub static KINDS: &[Kind] = &[
     result::RATIO,
     result::RMS,
     result::SOUTHWELL,
+    oscillation::PERIOD,
+    oscillation::FREQUENCY,
+    oscillation::SWING_PERIOD,
+    oscillation::MIDDLE,
+    oscillation::AMPLITUDE,
+    trace::TRACE,
     profile::PROFILE,
 ];
 
@@ -184,9 +197,13 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
     if expect.source.is_empty() {
         return Err("needs a source: where does the number come from?".into());
     }
-    let forms = [expect.value.is_some(), expect.reference.is_some(), expect.between.is_some()];
+    // A range beside a reference is that of a distance known to be too large.
+    let forms = [expect.value.is_some(), expect.reference.is_some(), expect.between.is_some() && expect.reference.is_none()];
     if forms.iter().filter(|&&f| f).count() != 1 {
         return Err("needs exactly one of value, reference and between".into());
+    }
+    if expect.between.is_some() && expect.tolerance.is_some() {
+        return Err("takes a tolerance or the range of a known miss, not both".into());
     }
     if expect.between.is_none() && expect.tolerance.is_none() {
         return Err("needs a tolerance".into());
@@ -194,15 +211,25 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
     if expect.between.is_some() && expect.because.is_none() {
         return Err("gives the range of a known miss: it needs `because`".into());
     }
-    if expect.reference.is_some() && expect.columns.is_none() {
-        return Err("needs the two columns of its reference".into());
-    }
+    check_columns(&scene.file.observe[name].kind, expect)?;
     if let Some(variant) = &expect.variant
         && !scene.file.variant.contains_key(variant)
         && variant != "none"
     {
         let variants: Vec<&str> = scene.file.variant.keys().map(String::as_str).collect();
         return Err(format!("holds for `{variant}`, which is no variant{}", hint(variant, &variants)));
+    }
+    Ok(())
+}
+
+fn check_columns(kind: &str, expect: &crate::scene::file::Expect) -> Result<(), String> {
+    let traces = kind == trace::TRACE.word;
+    let count = if traces { 3 } else { 2 };
+    if expect.reference.is_some() && expect.columns.as_ref().is_none_or(|columns| columns.len() != count) {
+        return Err(format!("needs the {count} columns of its reference"));
+    }
+    if traces && expect.reference.is_none() {
+        return Err("is of a trace, which only a reference can judge".into());
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use crate::particles::{Field, Type, unit_text};
 use crate::scene::Scene;
 use crate::scene::file::{Kind, Units};
 use crate::scene::read::hint;
+use glam::DMat3;
 
 /// Fields at one time.
 pub struct Moment<'a> {
@@ -131,6 +132,15 @@ impl<'a> Moment<'a> {
         debug_assert_eq!(field.kind(), Type::Vec);
         let row = self.row(field, i);
         std::array::from_fn(|k| if k < self.scene.dimension() { row[k] } else { 0.0 })
+    }
+
+    /// A second-rank tensor, zero along the axes that the scene lacks.
+    pub fn matrix(&self, field: Field, i: usize) -> DMat3 {
+        debug_assert_eq!(field.kind(), Type::Mat);
+        let (row, dimension) = (self.row(field, i), self.scene.dimension());
+        let stride = row.len() / dimension;
+        let entry = |j: usize, k: usize| if j < dimension && k < dimension { row[k * stride + j] } else { 0.0 };
+        DMat3::from_cols_array_2d(&std::array::from_fn(|k| std::array::from_fn(|j| entry(j, k))))
     }
 
     pub fn position(&self, i: usize) -> [f64; 3] {

@@ -21,6 +21,16 @@ impl Table {
         if list.is_empty() { Err(format!("the series `{name}` has no row in the window")) } else { Ok(list) }
     }
 
+    /// Series `of`, less series `over` where one is named.
+    pub fn difference(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+        let mut rows = self.of(typed)?;
+        if let Some(other) = &typed.over {
+            let taken = self.window(other, typed)?;
+            rows.iter_mut().zip(taken).for_each(|(row, other)| row.1 -= other.1);
+        }
+        Ok(rows)
+    }
+
     fn of(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
         self.window(typed.of.as_deref().unwrap_or_default(), typed)
     }

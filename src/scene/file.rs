@@ -126,6 +126,10 @@ pub enum Motion {
     Gradient(Vec<Vec<f64>>),
     /// v = amplitude sin(wave_vector . x + phase)
     Wave(Wave),
+    /// First mode of a clamped beam.
+    Cantilever(Cantilever),
+    /// A spin that grows from the root of a column to its end.
+    Twist(Twist),
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -135,6 +139,28 @@ pub struct Wave {
     pub wave_vector: Coordinates,
     #[serde(default)]
     pub phase: f64,
+}
+
+/// v = tip f(s)/f(1), f the first clamped-free mode, s the distance from the root along the axis over the length.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cantilever {
+    pub root: Coordinates,
+    pub axis: Coordinates,
+    pub length: f64,
+    /// Velocity of the free end.
+    pub tip: Coordinates,
+}
+
+/// v = rate sin(pi s/2) axis x (x - root), s the distance from the root along the axis over the length.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Twist {
+    pub root: Coordinates,
+    pub axis: Coordinates,
+    pub length: f64,
+    /// Angular velocity at the end.
+    pub rate: f64,
 }
 
 /// Extra velocity for the one particle nearest to a point.
@@ -505,12 +531,14 @@ pub struct Observe {
     pub axis: Option<String>,
     /// Another observable that this one is found from.
     pub of: Option<String>,
-    /// A second one, the divisor of a ratio.
+    /// A second one: the divisor of a ratio, what is taken off a swinging series, the other coordinate of a trace.
     pub over: Option<String>,
     /// Times between which it is found.
     pub between: Option<[f64; 2]>,
     /// Distance in spacings, speed, or whatever the kind takes.
     pub distance: Option<f64>,
+    /// Value whose crossings make a period.
+    pub level: Option<f64>,
 }
 
 /// What must come out.
@@ -522,9 +550,10 @@ pub struct Expect {
     /// The tolerance is a fraction of the value.
     pub relative: bool,
     pub reference: Option<String>,
-    /// Column of the abscissa (time, or position for a profile) and of the ordinate.
-    pub columns: Option<[String; 2]>,
+    /// Column of the abscissa (time, or position for a profile) and of the ordinate, or of both coordinates of a trace.
+    pub columns: Option<Vec<String>>,
     pub norm: Option<Norm>,
+    /// Range of a number that is known to miss, or with a reference of the distance from it.
     pub between: Option<[f64; 2]>,
     pub because: Option<String>,
     /// How one number is made of a series: final unless given.

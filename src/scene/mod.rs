@@ -4,6 +4,7 @@ mod carve;
 mod check;
 mod clip;
 pub mod file;
+mod motion;
 mod neighbors;
 pub mod packing;
 mod quasi_static;

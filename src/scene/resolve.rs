@@ -1,6 +1,6 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
-use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind, Motion};
+use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
 use super::packing::fill;
 use super::read::{Read, Source, hint};
 use super::shape::used;
@@ -232,15 +232,18 @@ fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, 
             .map_err(|message| refuse.at(&["body", &k.to_string(), "shape"], format!("body `{}`: {message}", body.name)))?;
         let center = typed.spin_center.as_ref().map_or(DVec3::ZERO, |c| c.vector());
         let axis = typed.spin_axis.as_ref().map_or(DVec3::Z, |a| a.vector().normalize_or_zero());
+        if let Some(motion) = &typed.motion {
+            motion.check().map_err(|message| refuse.at(&["body", &k.to_string(), "motion"], message))?;
+        }
         let velocity = typed.velocity.as_ref().map_or(DVec3::ZERO, |v| v.vector());
         particles.extend(points.iter().map(|point| {
             let spin = (axis * typed.spin).cross(point.position - center);
-            let motion = typed.motion.as_ref().map_or(DVec3::ZERO, |m| moved(m, point.position));
+            let motion = typed.motion.as_ref().map_or(DVec3::ZERO, |m| m.velocity(point.position));
             Particle {
                 body: k as u32,
                 constraint: 0,
                 position: point.position
-                    + used(typed.flaw.as_ref().map_or(DVec3::ZERO, |w| wave(w, point.position)), file.dimension),
+                    + used(typed.flaw.as_ref().map_or(DVec3::ZERO, |flaw| flaw.at(point.position)), file.dimension),
                 volume: point.volume / body.relative_volume,
                 velocity: used(velocity + spin + motion, file.dimension),
             }
@@ -258,20 +261,6 @@ fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, 
         }
     }
     Ok(particles)
-}
-
-fn moved(motion: &Motion, x: DVec3) -> DVec3 {
-    match motion {
-        Motion::Gradient(rows) => {
-            let row = |k: usize| rows.get(k).map_or(0.0, |r| r.iter().zip(x.to_array()).map(|(a, b)| a * b).sum());
-            DVec3::new(row(0), row(1), row(2))
-        }
-        Motion::Wave(typed) => wave(typed, x),
-    }
-}
-
-fn wave(wave: &file::Wave, x: DVec3) -> DVec3 {
-    wave.amplitude.vector() * (wave.wave_vector.vector().dot(x) + wave.phase).sin()
 }
 
 fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse: &Refuse) -> Result<Vec<Constraint>, String> {

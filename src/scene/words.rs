@@ -58,7 +58,7 @@ const LISTS: [(&str, &str); 14] = [
     ("kick", "a list of tables, each under `[[kick]]`"),
     ("fields", "a list of strings"),
     ("between", "a list of the names of 2 bodies"),
-    ("columns", "a list of 2 strings"),
+    ("columns", "a list of strings"),
     ("bounds", "a list of 2 points"),
     ("points", "a list of points"),
     ("course", "a list of pairs of numbers"),

@@ -1,10 +1,12 @@
 //! Compares a finished run with what its scene expects.
 
+mod distance;
+
 use crate::observable::{KINDS, Value};
-use crate::output::csv;
 use crate::run::Finished;
 use crate::scene::Scene;
-use crate::scene::file::{Expect, Norm, Statistic};
+use crate::scene::file::{Expect, Statistic};
+use distance::{distance, reference};
 use std::path::Path;
 
 /// How a comparison came out.
@@ -85,15 +87,17 @@ fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &E
     };
     let judge = |holds| if holds { Verdict::Pass } else { Verdict::Miss };
     let bound = expect.tolerance.unwrap_or(0.0);
-    if let Some(reference) = &expect.reference {
-        let seen = distance(scene, finished, &folder.join(reference), name, expect)?;
-        return Ok(row(seen, reference.clone(), format!("{bound}"), judge(seen <= bound)));
-    }
-    let seen = number(scene, finished, name, expect)?;
+    let seen = match &expect.reference {
+        Some(reference) => distance(scene, finished, &folder.join(reference), name, expect)?,
+        None => number(scene, finished, name, expect)?,
+    };
     if let Some([low, high]) = expect.between {
         let verdict = if (low..=high).contains(&seen) { Verdict::KnownMiss } else { Verdict::Miss };
         let because = expect.because.clone().unwrap_or_default();
         return Ok(row(seen, format!("{low} .. {high}"), because, verdict));
+    }
+    if let Some(reference) = &expect.reference {
+        return Ok(row(seen, reference.clone(), format!("{bound}"), judge(seen <= bound)));
     }
     let value = expect.value.unwrap_or(0.0);
     let shown = if expect.relative { format!("{} %", 100.0 * bound) } else { format!("{bound:e}") };
@@ -128,62 +132,6 @@ fn statistic(values: &[f64], statistic: Statistic) -> f64 {
         Statistic::Mean => values.iter().sum::<f64>() / values.len() as f64,
         Statistic::Drift => values.iter().map(|v| (v - first).abs()).fold(0.0, f64::max),
     }
-}
-
-/// Distance of a series or profile from a reference table, in the norm asked for.
-fn distance(scene: &Scene, finished: &Finished, path: &Path, name: &str, expect: &Expect) -> Result<f64, String> {
-    let reference = reference(path, expect)?;
-    let seen: Vec<(f64, f64)> = match finished.profiles.get(name) {
-        Some(rows) => rows.clone(),
-        None => finished.table.window(name, &scene.file.observe[name])?,
-    };
-    let within = |x: f64| x >= reference[0].0 && x <= reference[reference.len() - 1].0;
-    let pairs: Vec<(f64, f64)> = seen.iter().filter(|r| within(r.0)).map(|&(x, y)| (y, interpolate(&reference, x))).collect();
-    if pairs.is_empty() {
-        return Err(format!("{name}: no row lies within the reference {}", path.display()));
-    }
-    let scale = if expect.relative { pairs.iter().map(|p| p.1.abs()).fold(0.0, f64::max) } else { 1.0 };
-    let gap = |p: &(f64, f64)| (p.0 - p.1).abs();
-    Ok(match expect.norm.unwrap_or(Norm::Max) {
-        Norm::Max => pairs.iter().map(gap).fold(0.0, |m: f64, g| if g.is_nan() { g } else { m.max(g) }) / scale,
-        Norm::Rms => (pairs.iter().map(|p| gap(p).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt() / scale,
-        Norm::Final => gap(&pairs[pairs.len() - 1]) / scale,
-        Norm::Phase => phase(&seen, &reference),
-    })
-}
-
-fn reference(path: &Path, expect: &Expect) -> Result<Vec<(f64, f64)>, String> {
-    let (names, rows) = csv::read(path)?;
-    let [x, y] = expect.columns.as_ref().ok_or("a reference needs its two columns")?;
-    let find = |wanted: &String| {
-        names.iter().position(|n| n == wanted).ok_or_else(|| format!("{} has no column `{wanted}`", path.display()))
-    };
-    let (x, y) = (find(x)?, find(y)?);
-    if rows.len() < 2 {
-        return Err(format!("{} has fewer than two rows", path.display()));
-    }
-    Ok(rows.iter().map(|r| (r[x], r[y])).collect())
-}
-
-fn interpolate(table: &[(f64, f64)], x: f64) -> f64 {
-    let k = table.partition_point(|row| row.0 < x).clamp(1, table.len() - 1);
-    let ((x0, y0), (x1, y1)) = (table[k - 1], table[k]);
-    y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-}
-
-/// Difference of the mean distance between upward crossings of the mean, over that of the reference.
-fn phase(seen: &[(f64, f64)], reference: &[(f64, f64)]) -> f64 {
-    (period(seen) / period(reference) - 1.0).abs()
-}
-
-fn period(rows: &[(f64, f64)]) -> f64 {
-    let mean = rows.iter().map(|r| r.1).sum::<f64>() / rows.len() as f64;
-    let crossing = |w: &[(f64, f64)]| {
-        let (a, b) = (w[0].1 - mean, w[1].1 - mean);
-        (a < 0.0 && b >= 0.0).then(|| w[0].0 + (w[1].0 - w[0].0) * a / (a - b))
-    };
-    let times: Vec<f64> = rows.windows(2).filter_map(crossing).collect();
-    if times.len() < 2 { f64::NAN } else { (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64 }
 }
 
 /// The table as text.

@@ -1,0 +1,23 @@
+//! Displacement of a material point that need not be a particle: an edge, a tip.
+
+use super::momentum::component;
+use super::{Kind, Moment, Observer, Value};
+use crate::particles::Field;
+use glam::DVec3;
+
+/// That of the nearest particle, carried over the way to the point by its displacement gradient.
+fn displacement(moment: &Moment, observer: &Observer) -> f64 {
+    let i = observer.particles[0];
+    let start = moment.scene.particles[i].position;
+    let way = observer.typed.at.as_ref().map_or(DVec3::ZERO, |at| at.vector() - start);
+    let carried = moment.matrix(Field::DisplacementGradient, i) * way;
+    component(DVec3::from_array(moment.vector(Field::Displacement, i)) + carried, observer)
+}
+
+pub const POINT: Kind = Kind {
+    word: "point_displacement",
+    about: "displacement of the material point that starts at `at`, from the nearest particle and its displacement gradient",
+    needs: &["at", "axis"],
+    fields: &[Field::Displacement, Field::DisplacementGradient],
+    value: Value::Series(displacement),
+};
