@@ -3,7 +3,7 @@
 #![cfg(feature = "hdf5")]
 
 mod cli_support;
-#[path = "quasi_static/scenes.rs"]
+#[path = "lagrangian/patches.rs"]
 #[allow(dead_code)]
 mod scenes;
 

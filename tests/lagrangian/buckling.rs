@@ -2,7 +2,6 @@
 
 use lithosph::bond::{Bond, Listed, Source};
 use lithosph::scene::Scene;
-use lithosph::smoothing::CubicSpline;
 use lithosph::state::State;
 use lithosph::study::buckling::{Path, Pattern, find};
 use lithosph::tensor::{Plane, Space};
@@ -50,7 +49,7 @@ fn energy(state: &State<S>) -> f64 {
             let stray = S::mat_vec(h, bond.row.x * -1.0) - moved;
             -bond.row.weight * S::inner(stray, stray)
         };
-        let hourglass: f64 = <Listed<CubicSpline> as Source<S>>::blocks(state, a).flatten().map(stray).sum();
+        let hourglass: f64 = <Listed as Source<S>>::blocks(state, a).flatten().map(stray).sum();
         state.particles.reference_volume[a] * (elastic + 0.5 * state.params.hourglass * body.youngs_modulus * hourglass)
     };
     (0..state.particles.displacement.len()).map(particle).sum()

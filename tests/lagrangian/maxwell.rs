@@ -1,9 +1,7 @@
 //! The Maxwell body: it relaxes as it must, forgets no volume, and turns into heat what it loses.
 
-mod common;
-
-use common::Random;
-use common::deformation::*;
+use crate::common::Random;
+use crate::common::deformation::*;
 use lithosph::backend::Choice;
 use lithosph::material::{Law, cauchy, dissipated, first_piola, maxwell, relax, stored_energy, strain};
 use lithosph::run::{Options, run};
@@ -153,7 +151,7 @@ fn plate(steps: u32) -> ([f64; 2], f64) {
         step = 0.6 / f64::from(steps),
     );
     let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
-    let finished = run(&common::parse(&text), &options).unwrap_or_else(|stop| panic!("{stop:?}"));
+    let finished = run(&crate::common::parse(&text), &options).unwrap_or_else(|stop| panic!("{stop:?}"));
     let column = |name: &str| &finished.table.columns[name];
     let total = column("total");
     ([total[0], *total.last().unwrap()], *column("heat").last().unwrap())

@@ -1,14 +1,10 @@
 //! Equilibrium at load steps: exact homogeneous stress, both ways of descent, loads, what is refused.
 
-mod common;
-#[path = "quasi_static/scenes.rs"]
-mod scenes;
-
-use common::adapter;
+use crate::common::adapter;
+use crate::patches::{HANGING, STRAIN, exact_force, patch};
 use lithosph::backend::Choice;
 use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;
-use scenes::{HANGING, STRAIN, exact_force, patch};
 
 fn try_run(text: &str, choice: Choice, changes: &[&str]) -> Result<Finished, Stop> {
     let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();

@@ -1,10 +1,8 @@
 //! The laws of the Total Lagrangian formulation: stress is the derivative of the energy, whatever turns with the
 //! body turns the stress, the plane and the line are slices of space, and f32 keeps the digits of small strains.
 
-mod common;
-
-use common::Random;
-use common::deformation::*;
+use crate::common::Random;
+use crate::common::deformation::*;
 use lithosph::material::{first_piola, maxwell, relax, stored_energy, strain};
 use lithosph::tensor::{Line, Plane, Real, Solid, Space, Tuple};
 

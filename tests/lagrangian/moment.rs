@@ -1,10 +1,8 @@
 //! What a Total Lagrangian moment tells on the host: stress in all six components, pressure, density and energy
 //! from the deformation gradient and what the law remembers.
 
-mod common;
-
-use common::deformation::body;
-use common::parse;
+use crate::common::deformation::body;
+use crate::common::parse;
 use lithosph::backend::Columns;
 use lithosph::material::{Law, maxwell, stored_energy};
 use lithosph::observable::{Moment, Value, fields_read, observers};

@@ -1,8 +1,6 @@
 //! What the discrete Total Lagrangian operators must do exactly.
 
-mod common;
-
-use common::{Random, in_order, largest, parse, steps};
+use crate::common::{Random, in_order, largest, parse, steps};
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::material::stored_energy;
