@@ -71,9 +71,9 @@ impl Band {
             self.entries[place] -= sum;
         }
         let mut pivot = self.get(row, row);
-        for column in first..row {
+        for (column, divisor) in pivots.iter().enumerate().take(row).skip(first) {
             let place = self.place(row, column);
-            let scaled = self.entries[place] / pivots[column];
+            let scaled = self.entries[place] / divisor;
             pivot -= scaled * self.entries[place];
             self.entries[place] = scaled;
         }
@@ -102,8 +102,8 @@ impl Factors {
         x.iter_mut().zip(&self.pivots).for_each(|(x, pivot)| *x /= pivot);
         for row in (0..size).rev() {
             let own = x[row];
-            for column in row.saturating_sub(width)..row {
-                x[column] -= self.lower.get(row, column) * own;
+            for (column, slot) in x.iter_mut().enumerate().take(row).skip(row.saturating_sub(width)) {
+                *slot -= self.lower.get(row, column) * own;
             }
         }
         x
