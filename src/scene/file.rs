@@ -141,7 +141,8 @@ pub struct Wave {
     pub phase: f64,
 }
 
-/// v = tip f(s)/f(1), f the first clamped-free mode, s the distance from the root along the axis over the length.
+/// v = tip f(s)/f(1), f the first clamped-free mode, s the distance from the root along the axis over the length, 0
+/// behind it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cantilever {
@@ -152,7 +153,7 @@ pub struct Cantilever {
     pub tip: Coordinates,
 }
 
-/// v = rate sin(pi s/2) axis x (x - root), s the distance from the root along the axis over the length.
+/// v = rate sin(pi s/2) axis x (x - root), s the distance from the root along the axis over the length, 0 behind it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Twist {

@@ -62,8 +62,8 @@ fn mode(s: f64) -> f64 {
 impl Twist {
     fn velocity(&self, x: DVec3) -> DVec3 {
         let (axis, offset) = (self.axis.vector().normalize_or_zero(), x - self.root.vector());
-        let rate = self.rate * (std::f64::consts::FRAC_PI_2 * axis.dot(offset) / self.length).sin();
-        (axis * rate).cross(offset)
+        let share = (axis.dot(offset) / self.length).max(0.0);
+        (axis * (self.rate * (std::f64::consts::FRAC_PI_2 * share).sin())).cross(offset)
     }
 }
 
@@ -86,6 +86,6 @@ mod tests {
         let twist = Twist { axis: [0.0, 1.0, 0.0].into(), root: [0.0, 0.0, 0.0].into(), length: 6.0, rate: 105.0 };
         let v = twist.velocity(DVec3::new(0.5, 6.0, 0.25));
         assert!((v - DVec3::new(0.25, 0.0, -0.5) * 105.0).length() < 1e-12);
-        assert_eq!(twist.velocity(DVec3::new(0.5, 0.0, 0.25)), DVec3::ZERO);
+        assert_eq!(twist.velocity(DVec3::new(0.5, -1.0, 0.25)), DVec3::ZERO);
     }
 }
