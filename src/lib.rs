@@ -40,6 +40,7 @@ pub mod particles;
 pub mod pass;
 pub mod run;
 pub mod scene;
+pub mod shape;
 pub mod smoothing;
 pub mod state;
 pub mod step;

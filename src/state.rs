@@ -5,6 +5,7 @@ use crate::bond::BondTable;
 use crate::contact::Potential;
 use crate::material::Law;
 use crate::particles::Particles;
+use crate::scene::corrected_kernel::{CorrectedKernel, VelocityGradient};
 use crate::scene::file::{ArtificialForm, Density, Descent, Gradient, Integrator, Kind};
 use crate::smoothing::Smoothing;
 use crate::tensor::{Real, Space};
@@ -14,6 +15,8 @@ use crate::tensor::{Real, Space};
 pub struct Method {
     pub dimension: usize,
     pub kind: Kind,
+    /// Options of that kind.
+    pub corrected_kernel: Option<CorrectedKernel>,
     /// Laws of the scene's materials, each once, in order of their numbers.
     pub laws: Vec<Law>,
     pub smoothing: Smoothing,
@@ -48,9 +51,21 @@ pub struct Method {
 }
 
 impl Method {
+    /// Stress follows from the deformation gradient.
+    pub fn finite_strain(&self) -> bool {
+        self.kind != Kind::Eulerian
+    }
+    /// The neighbour list follows the particles.
+    pub fn list_follows(&self) -> bool {
+        self.kind == Kind::Eulerian || self.corrected_kernel.is_some_and(|options| options.current())
+    }
     /// Some list must follow the particles.
     pub fn listed_again(&self) -> bool {
-        self.kind == Kind::Eulerian || self.contact.is_some()
+        self.list_follows() || self.contact.is_some()
+    }
+    /// Steps are made of stages.
+    pub fn staged(&self) -> bool {
+        !matches!(self.integrator, Integrator::Leapfrog | Integrator::Pefrl)
     }
     /// Some law remembers more than the deformation.
     pub fn memory(&self) -> bool {
@@ -58,13 +73,21 @@ impl Method {
     }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {
-        let eulerian = self.kind == Kind::Eulerian;
+        let (eulerian, sums) = (self.kind == Kind::Eulerian, self.corrected_kernel);
+        let option = |has: fn(CorrectedKernel) -> bool| sums.is_some_and(has);
         let all = [
             ("line", self.dimension == 1),
             ("plane", self.dimension == 2),
             ("solid", self.dimension == 3),
-            ("total_lagrangian", self.kind == Kind::TotalLagrangian),
             ("fire", self.quasi_static == Some(Descent::Fire)),
+            ("finite_strain", self.finite_strain()),
+            ("list_follows", self.list_follows()),
+            ("staged", self.staged()),
+            ("correction", option(|sums| sums.correction)),
+            ("current", option(CorrectedKernel::current)),
+            ("evolved", option(CorrectedKernel::evolved)),
+            ("kept_gradients", option(CorrectedKernel::keeps_gradients)),
+            ("difference", option(|sums| sums.velocity_gradient == VelocityGradient::Difference)),
             ("hourglass", self.hourglass),
             ("contact", self.contact.is_some()),
             ("listed_again", self.listed_again()),
@@ -336,6 +359,10 @@ pub struct State<S: Space> {
     pub neighbors: Vec<u32>,
     /// Entry k of particle a's list of contacts at `k * count + a`.
     pub contacts: Vec<u32>,
+    /// Neighbours of the reference configuration, kept beside a list that follows the particles: entry k of
+    /// particle a at `k * count + a`, and with it V_b times the gradient at a of b's shape function.
+    pub kept_neighbors: Vec<u32>,
+    pub kept_gradients: Vec<S::Vec>,
     /// Total Lagrangian on the CPU.
     pub bond_table: BondTable<S>,
     /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.

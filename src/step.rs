@@ -1,5 +1,7 @@
 //! A step read aloud: which passes, in which order, for each integrator; and which fields they need.
 
+mod corrected_kernel;
+
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
 use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
@@ -28,6 +30,10 @@ fn stress_evolves(method: &Method) -> bool {
 
 /// From state to acceleration.
 fn force(method: &Method, calls: &mut Vec<Call>) {
+    if let Some(options) = method.corrected_kernel {
+        corrected_kernel::force(options, calls);
+        return;
+    }
     if method.kind == Kind::TotalLagrangian {
         calls.extend([Pass::Deform, Pass::BondForce].map(call));
         if method.viscosity {
@@ -58,6 +64,9 @@ fn order(reference: bool, calls: &mut Vec<Call>) {
 /// what the reference configuration fixes.
 pub fn prepare(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
+    if let Some(options) = method.corrected_kernel {
+        corrected_kernel::prepare(options, &mut calls);
+    }
     if method.kind == Kind::TotalLagrangian {
         order(true, &mut calls);
         if method.gradient != Gradient::Plain {
@@ -73,6 +82,9 @@ pub fn prepare(method: &Method) -> Vec<Call> {
 /// Passes that begin a segment.
 pub fn begin_segment(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
+    if let Some(options) = method.corrected_kernel {
+        corrected_kernel::begin_segment(options, &mut calls);
+    }
     if method.kind == Kind::Eulerian {
         order(false, &mut calls);
     }
@@ -138,8 +150,14 @@ pub fn step(method: &Method) -> Vec<Call> {
 fn leapfrog(method: &Method) -> Vec<Call> {
     let at = |pass, time| Call { pass, stage: Stage { time, ..Stage::default() } };
     let mut calls = vec![at(Pass::Kick, 0.5)];
+    if let Some(options) = method.corrected_kernel {
+        corrected_kernel::drift(options, &mut calls);
+        corrected_kernel::force(options, &mut calls);
+        calls.push(at(Pass::Kick, 1.0));
+        return calls;
+    }
     if method.kind == Kind::TotalLagrangian {
-        calls.push(drift(1.0));
+        calls.push(drift_by(1.0));
         force(method, &mut calls);
         calls.push(at(Pass::Kick, 1.0));
         return calls;
@@ -159,7 +177,7 @@ fn leapfrog(method: &Method) -> Vec<Call> {
     calls
 }
 
-fn drift(part: f64) -> Call {
+fn drift_by(part: f64) -> Call {
     Call { pass: Pass::Drift, stage: Stage { part, ..Stage::default() } }
 }
 
@@ -175,7 +193,7 @@ fn pefrl(method: &Method) -> Vec<Call> {
     let mut calls = Vec::new();
     let mut time = 0.0;
     for (k, &part) in drifts.iter().enumerate() {
-        calls.push(drift(part));
+        calls.push(drift_by(part));
         time += part;
         if let Some(&part) = kicks.get(k) {
             force(method, &mut calls);
@@ -202,7 +220,7 @@ const CLASSICAL: [Stage; 4] = [
 fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
     let eulerian = method.kind == Kind::Eulerian;
     let mut calls = Vec::new();
-    if eulerian {
+    if method.list_follows() {
         list(false, &mut calls);
     }
     for (k, &stage) in stages.iter().enumerate() {
@@ -216,6 +234,9 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
             calls.push(call(Pass::SmoothVelocity));
         }
         force(method, &mut calls);
+        if method.corrected_kernel.is_some_and(|options| options.evolved()) {
+            calls.push(call(Pass::EvolveDeformation));
+        }
         let stage = Stage { first: k == 0, last: k + 1 == stages.len(), ..stage };
         calls.push(Call { pass: Pass::RungeKutta, stage });
     }
@@ -226,9 +247,11 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
 /// integrator leaves at one of its stages.
 pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
     let mut calls = Vec::new();
-    let staged = method.kind == Kind::TotalLagrangian && method.integrator != Integrator::Leapfrog;
-    let dependent = [Field::DisplacementGradient, Field::Acceleration, Field::ContactEnergy];
-    if staged && wanted.iter().any(|field| dependent.contains(field)) {
+    let behind = method.finite_strain() && method.integrator != Integrator::Leapfrog;
+    let integrated = method.corrected_kernel.is_some_and(|options| options.evolved());
+    let dependent = [Field::Acceleration, Field::ContactEnergy, Field::DisplacementGradient];
+    let dependent = if integrated { &dependent[..1] } else { &dependent };
+    if behind && wanted.iter().any(|field| dependent.contains(field)) {
         force(method, &mut calls);
     }
     if wanted.contains(&Field::HourglassEnergy) {
@@ -240,8 +263,9 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
 /// Fields that the passes of this method read or write, and no others.
 pub fn fields(method: &Method) -> Vec<Field> {
     use Field::*;
-    let staged = !matches!(method.integrator, Integrator::Leapfrog | Integrator::Pefrl);
+    let staged = method.staged();
     let eulerian = method.kind == Kind::Eulerian;
+    let lagrangian = method.kind == Kind::TotalLagrangian;
     let adjoint = method.gradient == Gradient::Adjoint;
     let continuity = eulerian && method.density == Density::Continuity;
     let shear = eulerian && method.shear;
@@ -251,10 +275,11 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (eulerian, &[VolumetricStrain, VelocityGradient]),
         (method.listed_again(), &[ListedDisplacement]),
         (method.contact.is_some(), &[ContactCount, ContactEnergy]),
-        (!eulerian, &[DisplacementGradient, BondStress]),
-        (!eulerian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
         (method.hourglass, &[HourglassEnergy]),
         (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
+        (!eulerian, &[DisplacementGradient]),
+        (lagrangian, &[BondStress]),
+        (lagrangian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
         (method.memory(), &[ViscousStrain]),
         (method.many_bodies, &[Body]),
         (method.constraints, &[Field::Constraint]),
@@ -275,7 +300,8 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (staged && method.internal_energy, &[InternalEnergyStart, InternalEnergySum]),
         (staged && method.dissipated_energy, &[DissipatedEnergyStart, DissipatedEnergySum]),
     ];
-    let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).collect();
+    let own = method.corrected_kernel.map_or_else(Vec::new, |options| corrected_kernel::fields(options, staged));
+    let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect();
     list.sort_unstable();
     list
 }

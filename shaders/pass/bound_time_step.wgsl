@@ -13,7 +13,7 @@
 #endif
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
-#if total_lagrangian
+#if finite_strain
 @group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
 #else
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
@@ -61,7 +61,7 @@ fn blocks(invocation: Invocation) {
 fn bound_of(a: u32) -> vec4<real> {
     let own = body_of(a);
     let h = own.smoothing_length;
-#if total_lagrangian
+#if finite_strain
     let compression: real = 0.0;
 #else
     let compression = abs(trace(velocity_gradient[a]));
@@ -81,7 +81,7 @@ fn bound_of(a: u32) -> vec4<real> {
     if exponent == 0x7f800000u {
         return vec4<real>(0.0, 0.0, 0.0, real(NOT_FINITE));
     }
-#if total_lagrangian
+#if finite_strain
     let inverted = determinant_mat(mat_identity() + displacement_gradient[a]) <= 0.0;
 #else
     let inverted = 1.0 + volumetric_strain[a] <= 0.0;

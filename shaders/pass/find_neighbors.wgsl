@@ -12,7 +12,7 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(_) var<storage, read> cell_particles: array<u32>;
-#if !total_lagrangian
+#if list_follows
 @group(0) @binding(_) var<storage, read_write> listed_displacement: array<Vec>;
 #endif
 @group(0) @binding(_) var<storage, read_write> neighbors: array<u32>;
@@ -41,8 +41,10 @@ fn main(invocation: Invocation) {
     }
     let a = params.first + row;
     let search = search_of(a, row);
-#if !total_lagrangian
-    listed_displacement[a] = search.displacement;
+#if list_follows
+    if !stage_reference {
+        listed_displacement[a] = search.displacement;
+    }
 #endif
     let found = list_one(search);
     if found == TOO_MANY {

@@ -39,6 +39,12 @@
 @group(0) @binding(_) var<storage, read_write> volumetric_strain_start: array<real>;
 @group(0) @binding(_) var<storage, read_write> volumetric_strain_sum: array<real>;
 #endif
+#if evolved
+@group(0) @binding(_) var<storage, read> displacement_gradient_rate: array<Mat>;
+@group(0) @binding(_) var<storage, read_write> displacement_gradient: array<Mat>;
+@group(0) @binding(_) var<storage, read_write> displacement_gradient_start: array<Mat>;
+@group(0) @binding(_) var<storage, read_write> displacement_gradient_sum: array<Mat>;
+#endif
 #if internal_energy
 @group(0) @binding(_) var<storage, read> internal_power: array<real>;
 @group(0) @binding(_) var<storage, read_write> internal_energy: array<real>;
@@ -70,6 +76,9 @@ fn main(invocation: Invocation) {
     motion(a);
 #if shear
     advance_stress(a);
+#endif
+#if evolved
+    advance_deformation(a);
 #endif
 #if continuity
     let strain = advance_scalar(
@@ -175,6 +184,24 @@ fn advance_stress(a: u32) {
         deviatoric_stress_start[a] = start;
     }
     deviatoric_stress_sum[a] = sum;
+}
+#endif
+
+#if evolved
+fn advance_deformation(a: u32) {
+    let rate = displacement_gradient_rate[a];
+    var start = displacement_gradient_start[a];
+    var sum = displacement_gradient_sum[a];
+    if stage_first {
+        start = displacement_gradient[a];
+        sum = Mat();
+    }
+    sum += rate * stage_weight;
+    displacement_gradient[a] = start + (sum * stage_of_sum + rate * stage_of_rate) * clock.step;
+    if stage_first {
+        displacement_gradient_start[a] = start;
+    }
+    displacement_gradient_sum[a] = sum;
 }
 #endif
 

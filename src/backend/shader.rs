@@ -28,7 +28,7 @@ macro_rules! library {
 
 library! {
     lib: body, body_index, bond, contact_pair, descent, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
-        moving_velocity, pair, pair_velocity, params, real, separation, strain, tensor_1d, tensor_2d, tensor_3d, unbalanced, visit_cells, volume;
+        moving_velocity, pair, pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d, unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
 
@@ -37,8 +37,15 @@ const FLAGS: &[&str] = &[
     "line",
     "plane",
     "solid",
-    "total_lagrangian",
     "fire",
+    "finite_strain",
+    "list_follows",
+    "staged",
+    "correction",
+    "current",
+    "evolved",
+    "kept_gradients",
+    "difference",
     "hourglass",
     "contact",
     "listed_again",

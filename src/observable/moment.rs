@@ -6,7 +6,7 @@ use crate::material;
 use crate::output::{Column, Snapshot};
 use crate::particles::{Field, Type, unit_text};
 use crate::scene::Scene;
-use crate::scene::file::{Kind, Units};
+use crate::scene::file::Units;
 use crate::scene::read::hint;
 use glam::DMat3;
 
@@ -45,7 +45,7 @@ fn quantity(path: &str) -> Result<&'static (&'static str, usize, &'static [Field
 /// Fields that a scene cannot do without where `fields` are named: in the Total Lagrangian formulation volume,
 /// stress and energy follow from the deformation gradient. Only some scenes have a deviator: see [`read`].
 pub fn needed(scene: &Scene, fields: &[Field]) -> Vec<Field> {
-    let lagrangian = scene.method.kind == Kind::TotalLagrangian;
+    let lagrangian = scene.method.finite_strain();
     let kept = |field: &Field| match field {
         Field::DeviatoricStress => None,
         Field::VolumetricStrain if lagrangian => Some(Field::DisplacementGradient),
@@ -151,7 +151,7 @@ impl<'a> Moment<'a> {
 
     /// In a Total Lagrangian scene, what all else follows from.
     fn deformation(&self, i: usize) -> Option<Deformation> {
-        (self.scene.method.kind == Kind::TotalLagrangian).then(|| Deformation::of(self, i))
+        (self.scene.method.finite_strain()).then(|| Deformation::of(self, i))
     }
 
     /// Reference density over density, minus 1.

@@ -4,7 +4,6 @@
 //! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 
 use super::Stage;
-use crate::scene::file::Kind;
 use crate::state::{Fault, REDUCTION_BLOCK, State};
 use crate::tensor::{Real, Space};
 
@@ -33,14 +32,14 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let (particles, params, body) = (&state.particles, &state.params, state.body(a));
     let (h, part) = (body.smoothing_length, S::Real::of(0.6));
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
-    let lagrangian = state.method.kind == Kind::TotalLagrangian;
-    let compression = if lagrangian { zero } else { S::trace(particles.velocity_gradient[a]).abs() };
+    let finite_strain = state.method.finite_strain();
+    let compression = if finite_strain { zero } else { S::trace(particles.velocity_gradient[a]).abs() };
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
     let pull = S::inner(particles.acceleration[a], particles.acceleration[a]);
     let rate = (signal / h).max((pull.sqrt() / h).sqrt());
     let moved = particles.listed_displacement.get(a).map_or(S::Vec::default(), |listed| particles.displacement[a] - *listed);
     let (moved, speed) = (S::inner(moved, moved), S::inner(particles.velocity[a], particles.velocity[a]));
-    let volume = if lagrangian {
+    let volume = if finite_strain {
         S::determinant(S::mat_identity() + particles.displacement_gradient[a])
     } else {
         one + particles.volumetric_strain[a]

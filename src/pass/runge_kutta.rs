@@ -60,6 +60,18 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         step,
         stage,
     );
+    // Empty unless the deformation gradient is a state of its own.
+    if !p.displacement_gradient_rate.is_empty() {
+        let rate = &p.displacement_gradient_rate;
+        advance(
+            &mut p.displacement_gradient,
+            &mut p.displacement_gradient_start,
+            &mut p.displacement_gradient_sum,
+            |a| rate[a],
+            step,
+            stage,
+        );
+    }
     if !p.volumetric_strain_rate.is_empty() {
         advance_scalar(
             &mut p.volumetric_strain,

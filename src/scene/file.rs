@@ -3,6 +3,7 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
+use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use crate::contact::Potential;
@@ -201,6 +202,15 @@ pub struct Formulation {
     /// Total Lagrangian on the CPU: look bonds up among the distinct ones, three times as fast, instead of evaluating
     /// each anew, which takes less memory where there is no lattice. A GPU always does the latter.
     pub bond_table: Option<bool>,
+    /// Corrected kernel: Liu's full correction, or the bare kernel; true unless given.
+    pub correction: Option<bool>,
+    /// Corrected kernel: where kernel sums run; `current` unless given.
+    pub configuration: Option<Configuration>,
+    /// Corrected kernel: how the deformation gradient is found; `evolved` unless given, in the reference
+    /// configuration `reference`.
+    pub deformation: Option<Deformation>,
+    /// Corrected kernel: which velocities the velocity gradient sums; `difference` unless given.
+    pub velocity_gradient: Option<VelocityGradient>,
     pub viscosity: Option<Viscosity>,
     /// Weight of Monaghan's XSPH: particles move with the smoothed velocity.
     pub xsph: Option<f64>,
@@ -228,6 +238,10 @@ impl Default for Formulation {
             gradient: None,
             hourglass: None,
             bond_table: None,
+            correction: None,
+            configuration: None,
+            deformation: None,
+            velocity_gradient: None,
             viscosity: None,
             xsph: None,
             velocity_filter: None,
@@ -249,6 +263,8 @@ pub enum Kind {
     Eulerian,
     /// Neighbours and kernels of the reference configuration, found once; stress from the deformation gradient.
     TotalLagrangian,
+    /// Fully corrected kernels and F as a state of its own: Shutov & Klyuchantsev 2019.
+    CorrectedKernel,
 }
 
 impl Formulation {

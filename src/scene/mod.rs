@@ -3,6 +3,7 @@
 mod carve;
 mod check;
 mod clip;
+pub mod corrected_kernel;
 pub mod file;
 mod motion;
 mod neighbors;

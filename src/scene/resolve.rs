@@ -1,5 +1,6 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
+use super::corrected_kernel::{self, Configuration};
 use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
 use super::packing::fill;
 use super::read::{Read, Source, hint};
@@ -328,7 +329,9 @@ fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3
 
 fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
     // Through the reference configuration, bodies have nothing to do with each other.
-    let apart = if file.formulation.kind == Kind::TotalLagrangian { 0.0 } else { 1.0 };
+    let f = &file.formulation;
+    let reference = f.kind == Kind::TotalLagrangian || f.configuration == Some(Configuration::Reference);
+    let apart = if reference { 0.0 } else { 1.0 };
     let mut table = vec![vec![apart; bodies.len()]; bodies.len()];
     (0..bodies.len()).for_each(|k| table[k][k] = 1.0);
     for (k, contact) in file.contact.iter().enumerate() {
@@ -350,7 +353,7 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
             format!("kernel must lie between 0 (off) and 1 (as one body), found {kernel}")
         })?;
         refuse.unless(apart > 0.0 || kernel == 0.0, &["contact", &at, "kernel"], || {
-            "Total Lagrangian bodies have no kernel sums with each other: kernel must be 0".into()
+            "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
         })?;
         (table[a][b], table[b][a]) = (kernel, kernel);
     }
@@ -438,6 +441,7 @@ fn method(
         "dissipated_energy adds up the heat of viscosity, and this scene names no viscosity".into()
     })?;
     let lagrangian = f.kind == Kind::TotalLagrangian;
+    let corrected_kernel = corrected_kernel::options(file, refuse)?;
     lagrangian_only(file, bodies, refuse)?;
     quasi_static::check(file, bodies, refuse)?;
     let mut laws: Vec<Law> = bodies.iter().map(|body| body.law).collect();
@@ -452,6 +456,7 @@ fn method(
         density: f.density,
         gradient: f.gradient(),
         kind: f.kind,
+        corrected_kernel,
         laws,
         hourglass: lagrangian && f.hourglass() > 0.0,
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
@@ -477,20 +482,21 @@ fn method(
 fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), String> {
     let f = &file.formulation;
     let lagrangian = f.kind == Kind::TotalLagrangian;
+    let finite = f.kind != Kind::Eulerian;
     for (k, body) in bodies.iter().enumerate() {
         let at = k.to_string();
-        refuse.unless(body.law.is_finite_strain() == lagrangian, &["body", &at, "material"], || {
+        refuse.unless(body.law.is_finite_strain() == finite, &["body", &at, "material"], || {
             let words = "`st_venant_kirchhoff`, `neo_hookean` or `maxwell`";
-            if lagrangian {
-                format!("formulation.kind `total_lagrangian` takes a material whose law is {words}")
+            if finite {
+                format!("this formulation.kind takes a material whose law is {words}")
             } else {
-                format!("a material whose law is {words} needs formulation.kind `total_lagrangian`")
+                format!("a material whose law is {words} needs formulation.kind `total_lagrangian` or `corrected_kernel`")
             }
         })?;
         let typed = &file.body[k];
         let stressed = typed.relative_volume.is_some() || typed.deviatoric_stress.is_some();
-        refuse.unless(!(lagrangian && stressed), &["body", &at], || {
-            "a Total Lagrangian body starts unstressed: relative_volume and deviatoric_stress do not go with it".into()
+        refuse.unless(!(finite && stressed), &["body", &at], || {
+            "a body of finite strain starts unstressed: relative_volume and deviatoric_stress do not go with it".into()
         })?;
     }
     let eulerian_words = [
@@ -502,9 +508,7 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
         ("gradient", f.gradient == Some(Gradient::Corrected)),
     ];
     for (word, named) in eulerian_words {
-        refuse.unless(!(lagrangian && named), &["formulation", word], || {
-            format!("{word} belongs to the Eulerian formulation, and formulation.kind is `total_lagrangian`")
-        })?;
+        refuse.unless(!(finite && named), &["formulation", word], || format!("{word} belongs to formulation.kind `eulerian`"))?;
     }
     let quadratic = f.gradient == Some(Gradient::Quadratic);
     refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {

@@ -1,10 +1,10 @@
 //! A scene's first state, in the precision of the backend that will step it.
 
 use super::Scene;
-use super::file::{Kind, Viscosity};
+use super::file::Viscosity;
 use crate::bond::BondTable;
 use crate::particles::{Field, Particles, Type};
-use crate::state::{Balance, Body, Clock, Constraint, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Balance, Body, Clock, Constraint, Method, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
@@ -29,6 +29,7 @@ impl Scene {
         let quasi_static = method.quasi_static.is_some();
         let (count, cells) = (self.particles.len(), params.cell_total as usize);
         let real = S::Real::of;
+        let kept = if keeps_gradients(&method) { count * params.list_capacity as usize } else { 0 };
         let mut state = State {
             particles: Particles::allocate(count, &step::fields(&method)),
             method,
@@ -45,6 +46,8 @@ impl Scene {
             cell_particles: vec![0; count],
             neighbors: vec![0; count * params.list_capacity as usize],
             contacts: vec![0; count * params.contact_capacity as usize],
+            kept_neighbors: vec![0; kept],
+            kept_gradients: vec![S::Vec::default(); kept],
             bond_table: BondTable::default(),
             block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
             balance: Balance::default(),
@@ -66,7 +69,8 @@ impl Scene {
         let columns: usize = step::fields(&method).into_iter().map(bytes).sum();
         let params = self.params::<f64>();
         let lists = params.list_capacity + params.contact_capacity;
-        let particle = (columns + 4 * (1 + lists as usize)) as u64;
+        let kept = if keeps_gradients(&method) { 4 + word * Type::Vec.words_in(self.dimension()) } else { 0 };
+        let particle = (columns + 4 * (1 + lists as usize) + kept * params.list_capacity as usize) as u64;
         particle * self.particles.len() as u64 + 8 * u64::from(params.cell_total)
     }
 
@@ -128,7 +132,7 @@ impl Scene {
     }
 
     fn reach(&self) -> f64 {
-        let margin = if self.method.kind == Kind::TotalLagrangian { 0.0 } else { self.margin() };
+        let margin = if self.method.list_follows() { self.margin() } else { 0.0 };
         2.0 * self.smoothing_length() + margin
     }
 
@@ -152,10 +156,10 @@ impl Scene {
         if q > 0.0 { inside as u32 + 16 } else { 0 }
     }
 
-    /// Entries a neighbour list needs. Total Lagrangian: what there is. Eulerian: what the densest packing holds within reach, and half as much again
+    /// Entries a neighbour list needs. In the reference configuration: what there is. Else: what the densest packing holds within reach, and half as much again
     /// (twice in the plane, where clumps form more easily), since Eulerian particles may crowd.
     fn list_capacity(&self) -> u32 {
-        if self.method.kind == Kind::TotalLagrangian {
+        if !self.method.list_follows() {
             return *self.most_bonds.get_or_init(|| self.most_neighbors(self.reach()).max(1));
         }
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
@@ -256,6 +260,10 @@ impl Scene {
             side *= 1.1;
         }
     }
+}
+
+fn keeps_gradients(method: &Method) -> bool {
+    method.corrected_kernel.is_some_and(|options| options.keeps_gradients())
 }
 
 impl super::Body {

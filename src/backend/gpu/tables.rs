@@ -208,6 +208,8 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
         table("bodies", cast_slice(&state.bodies), 0),
         table("contact_pairs", cast_slice(&state.contact_pairs), 0),
         table("contacts", cast_slice(&state.contacts), 0),
+        table("kept_neighbors", cast_slice(&state.kept_neighbors), 0),
+        table("kept_gradients", cast_slice(&state.kept_gradients), 0),
         table("coupling", cast_slice(&state.coupling), 0),
         table("constraints", cast_slice(&state.constraints), 0),
         table("course", cast_slice(&state.course), 0),

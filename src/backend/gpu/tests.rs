@@ -15,6 +15,7 @@ fn method() -> Method {
     Method {
         dimension: 2,
         kind: Default::default(),
+        corrected_kernel: None,
         laws: vec![Default::default()],
         hourglass: false,
         bond_table: false,
@@ -90,6 +91,8 @@ fn state(side: usize) -> State<Plane<f32>> {
         neighbors: Vec::new(),
         bond_table: Default::default(),
         contacts: Vec::new(),
+        kept_neighbors: Vec::new(),
+        kept_gradients: Vec::new(),
         contact_pairs: Vec::new(),
         block_bound: Vec::new(),
         balance: Default::default(),

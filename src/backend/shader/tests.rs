@@ -91,6 +91,7 @@ fn methods() -> Vec<Method> {
             let mut method = Method {
                 dimension,
                 kind: Default::default(),
+                corrected_kernel: None,
                 laws: vec![Default::default()],
                 hourglass: false,
                 bond_table: false,
@@ -125,6 +126,7 @@ fn methods() -> Vec<Method> {
         }
     }
     list.extend((1..=3).flat_map(lagrangian_methods));
+    list.extend((1..=3).flat_map(corrected_methods));
     list
 }
 
@@ -150,6 +152,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         let mut together = Method {
             dimension,
             kind: Kind::TotalLagrangian,
+            corrected_kernel: None,
             contact: None,
             quasi_static: None,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
@@ -180,6 +183,27 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
             switch(&mut together);
             list.extend([alone, together.clone()]);
         }
+    }
+    list
+}
+
+/// The same by corrected kernels, with every combination of their options.
+fn corrected_methods(dimension: usize) -> Vec<Method> {
+    use crate::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
+    use crate::scene::file::{Gradient, Integrator, Kind};
+    let mut list = Vec::new();
+    for (k, method) in lagrangian_methods(dimension).into_iter().enumerate() {
+        let (configuration, deformation) = [
+            (Configuration::Current, Deformation::Evolved),
+            (Configuration::Current, Deformation::Reference),
+            (Configuration::Reference, Deformation::Reference),
+        ][k % 3];
+        let velocity_gradient = [VelocityGradient::Difference, VelocityGradient::Printed][k / 3 % 2];
+        let options = CorrectedKernel { correction: k / 6 % 2 == 0, configuration, deformation, velocity_gradient };
+        let integrator = if method.memory() { Integrator::Leapfrog } else { Integrator::SspRk3 };
+        let (kind, corrected_kernel) = (Kind::CorrectedKernel, Some(options));
+        let plain = Method { hourglass: false, gradient: Gradient::Plain, dissipated_energy: false, ..method };
+        list.push(Method { kind, corrected_kernel, integrator, ..plain });
     }
     list
 }
@@ -218,6 +242,8 @@ const TABLES: &[&str] = &[
     "coupling",
     "constraints",
     "course",
+    "kept_neighbors",
+    "kept_gradients",
     "cell_count",
     "cell_start",
     "cell_block",

@@ -1,0 +1,32 @@
+// Keeps the neighbours of the reference configuration, and V_b times the gradient at a of b's shape function there,
+// for a list that will follow the particles. Twin: src/pass/keep_gradients.rs
+#import invocation
+#import shape_node
+#import shape_columns
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> reference_volume: array<real>;
+@group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
+@group(0) @binding(_) var<storage, read_write> kept_count: array<u32>;
+@group(0) @binding(_) var<storage, read_write> kept_neighbors: array<u32>;
+@group(0) @binding(_) var<storage, read_write> kept_gradients: array<Vec>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let row = index_of(invocation);
+    if row >= params.chunk || clock.running == 0u {
+        return;
+    }
+    let a = params.first + row;
+    let center = center_of(a, row);
+    let own = shape_of(a);
+    kept_count[a] = center.count;
+    // Without a itself, from which nothing differs.
+    for (var k = 0u; k < center.count; k++) {
+        let node = node_at(center, k);
+        kept_neighbors[k * params.count + a] = neighbors[k * params.chunk + row];
+        kept_gradients[k * params.count + a] = shape_gradient(own, node.x, node.weight, node.slope) * volume_of(node);
+    }
+}

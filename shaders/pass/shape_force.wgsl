@@ -1,0 +1,48 @@
+// Acceleration, Shutov & Klyuchantsev 2019 (5) in its adjoint reading:
+//
+// rho a_a = T_a = -sum V_b sigma_b grad psi_a(x_b),
+//
+// with the gradient at b of the shape function of a; in the reference configuration P stands for sigma and V_b is the
+// reference volume. Twin: src/pass/shape_force.rs
+#import invocation
+#import shape_node
+#import shape_columns
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> reference_volume: array<real>;
+#if current
+@group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
+#endif
+@group(0) @binding(_) var<storage, read> shape_stress: array<Mat>;
+@group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let row = index_of(invocation);
+    if row >= params.chunk || clock.running == 0u {
+        return;
+    }
+    let a = params.first + row;
+    let center = center_of(a, row);
+    var sum = Vec();
+    for (var k = 0u; k <= center.count; k++) {
+        sum += pull(node_at(center, k));
+    }
+    // What volume the particle has now for each of its reference volume.
+#if current
+    let volume = 1.0 + volumetric_strain[a];
+#else
+    let volume: real = 1.0;
+#endif
+    acceleration[a] = sum * (-volume / body_of(a).density);
+}
+
+// V_b sigma_b grad psi_a(x_b). Of an image, everything is mirrored: as much as to mirror the way to it and what comes
+// of it.
+fn pull(node: Node) -> Vec {
+    let from_a = seen(node.image, -node.x);
+    let gradient = shape_gradient(shape_of(node.b), from_a, node.weight, node.slope);
+    return seen(node.image, mat_vec(shape_stress[node.b], gradient)) * (reference_volume[node.b] * node.coupled);
+}

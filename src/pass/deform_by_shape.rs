@@ -1,0 +1,52 @@
+//! H_a = sum V_b (u_b - u_a) (x) grad psi_b(X_a) in the reference configuration, Shutov & Klyuchantsev 2019 (8).
+//! Twin: shaders/pass/deform_by_shape.wgsl
+
+use super::Stage;
+use crate::shape::{Shape, nodes, seen};
+use crate::smoothing::{Kernel, with_kernel};
+use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use crate::tensor::Space;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
+    if state.method.list_follows() {
+        super::write(&mut gradients, |a, slot| *slot = sum_kept(state, a));
+    } else {
+        with_kernel!(state.method.smoothing, K => {
+            super::write(&mut gradients, |a, slot| *slot = sum_nodes::<S, K>(state, a));
+        });
+    }
+    state.particles.displacement_gradient = gradients;
+}
+
+/// u_b - u_a
+#[inline(always)]
+fn difference<S: Space>(state: &State<S>, a: usize, b: usize, image: u32) -> S::Vec {
+    seen(state, image, state.particles.displacement[b]) - state.particles.displacement[a]
+}
+
+#[inline(always)]
+fn sum_nodes<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+    let shape = Shape::of(state, a);
+    let mut sum = S::Mat::default();
+    for node in nodes::<S, K>(state, a, true) {
+        let gradient = shape.gradient(node.x, node.weight, node.slope) * node.volume;
+        sum += S::outer(difference(state, a, node.b, node.image), gradient);
+    }
+    sum
+}
+
+#[inline(always)]
+fn sum_kept<S: Space>(state: &State<S>, a: usize) -> S::Mat {
+    let count = state.params.count as usize;
+    let mut sum = S::Mat::default();
+    for k in 0..state.particles.kept_count[a] as usize {
+        let entry = state.kept_neighbors[k * count + a];
+        let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
+        sum += S::outer(difference(state, a, b, image), state.kept_gradients[k * count + a]);
+    }
+    sum
+}

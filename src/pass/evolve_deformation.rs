@@ -1,0 +1,65 @@
+//! The velocity gradient L_a = sum V_b (v_b - v_a) (x) grad psi_b(x_a), Shutov & Klyuchantsev 2019 (6), which as
+//! printed has v_b alone; and what it does to F, (9): in leapfrog F <- exp(step L) F, in Runge-Kutta the rate L F.
+//! Both are written for H = F - 1, so that f32 keeps small strains. Twin: shaders/pass/evolve_deformation.wgsl
+
+use super::Stage;
+use crate::scene::corrected_kernel::VelocityGradient;
+use crate::shape::{Shape, nodes, seen};
+use crate::smoothing::{Kernel, with_kernel};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+/// Terms of the exponential's series: all digits of f64 for steps that turn or stretch by a tenth.
+const EXPONENTIAL_TERMS: u32 = 10;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
+    if state.method.staged() {
+        let mut rates = std::mem::take(&mut state.particles.displacement_gradient_rate);
+        with_kernel!(state.method.smoothing, K => {
+            super::write(&mut rates, |a, slot| *slot = before::<S>(velocity_gradient::<S, K>(state, a), gradients[a]));
+        });
+        state.particles.displacement_gradient_rate = rates;
+    } else {
+        with_kernel!(state.method.smoothing, K => {
+            super::write(&mut gradients, |a, slot| {
+                let turn = exponential_less_one::<S>(velocity_gradient::<S, K>(state, a) * state.clock.step);
+                *slot += before::<S>(turn, *slot);
+            });
+        });
+    }
+    state.particles.displacement_gradient = gradients;
+}
+
+/// A F = A + A H
+#[inline(always)]
+fn before<S: Space>(a: S::Mat, h: S::Mat) -> S::Mat {
+    a + S::mat_mat(a, h)
+}
+
+/// exp A - 1 = A (1 + A/2 (1 + A/3 (…)))
+#[inline(always)]
+fn exponential_less_one<S: Space>(a: S::Mat) -> S::Mat {
+    let mut rest = S::Mat::default();
+    for k in (2..=EXPONENTIAL_TERMS).rev() {
+        rest = before::<S>(a, rest) * S::Real::of(1.0 / f64::from(k));
+    }
+    before::<S>(a, rest)
+}
+
+#[inline(always)]
+fn velocity_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+    let velocity = &state.particles.velocity;
+    let printed = state.method.corrected_kernel.is_some_and(|sums| sums.velocity_gradient == VelocityGradient::Printed);
+    let own = if printed { S::Vec::default() } else { velocity[a] };
+    let shape = Shape::of(state, a);
+    let mut sum = S::Mat::default();
+    for node in nodes::<S, K>(state, a, false) {
+        let gradient = shape.gradient(node.x, node.weight, node.slope) * node.volume;
+        sum += S::outer(seen(state, node.image, velocity[node.b]) - own, gradient);
+    }
+    sum
+}

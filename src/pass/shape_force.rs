@@ -1,0 +1,46 @@
+//! Acceleration, Shutov & Klyuchantsev 2019 (5) in its adjoint reading:
+//!
+//! rho a_a = T_a = -sum V_b sigma_b grad psi_a(x_b),
+//!
+//! with the gradient at b of the shape function of a. Its power is then that of the stress on (6) as printed, the
+//! sum of V_b sigma_b : L_b, and where the shape functions sum to one also on the differences. With the gradient at a
+//! of b's function, as (5) may be read, the sign is wrong. In the reference configuration P stands for sigma and V_b
+//! is the reference volume: the force is then minus the derivative of the energy. Twin: shaders/pass/shape_force.wgsl
+
+use super::Stage;
+use crate::shape::{Node, Shape, nodes, seen};
+use crate::smoothing::{Kernel, with_kernel};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    with_kernel!(state.method.smoothing, K => {
+        super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a, stage.reference));
+    });
+    state.particles.acceleration = accelerations;
+}
+
+#[inline(always)]
+fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
+    let mut sum = S::Vec::default();
+    for node in nodes::<S, K>(state, a, reference) {
+        sum += pull(state, &node);
+    }
+    // What volume the particle has now for each of its reference volume.
+    let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.particles.volumetric_strain[a] };
+    sum * (-volume / state.body(a).density)
+}
+
+/// V_b sigma_b grad psi_a(x_b). Of an image, everything is mirrored: as much as to mirror the way to it and what
+/// comes of it.
+#[inline(always)]
+fn pull<S: Space>(state: &State<S>, node: &Node<S>) -> S::Vec {
+    let from_a = seen(state, node.image, node.x * S::Real::of(-1.0));
+    let gradient = Shape::of(state, node.b).gradient(from_a, node.weight, node.slope);
+    let force = S::mat_vec(state.particles.shape_stress[node.b], gradient);
+    seen(state, node.image, force) * (state.particles.reference_volume[node.b] * node.coupled)
+}

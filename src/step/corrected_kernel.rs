@@ -1,0 +1,81 @@
+//! The passes of Shutov & Klyuchantsev's method at their places in a step.
+
+use super::{call, drift_by, list, order};
+use crate::particles::Field;
+use crate::pass::{Call, Pass, Stage};
+use crate::scene::corrected_kernel::CorrectedKernel;
+
+/// A pass whose sums run over the reference configuration, or over the current one.
+fn summed(pass: Pass, reference: bool) -> Call {
+    Call { pass, stage: Stage { reference, ..Stage::default() } }
+}
+
+/// What the reference configuration fixes, where F is found from displacements.
+pub(super) fn prepare(options: CorrectedKernel, calls: &mut Vec<Call>) {
+    if options.evolved() {
+        return;
+    }
+    order(true, calls);
+    if options.correction {
+        calls.push(summed(Pass::ShapeFunction, true));
+    }
+    if options.keeps_gradients() {
+        calls.push(summed(Pass::KeepGradients, true));
+    }
+}
+
+/// Kept neighbours are known by their places, so with them the particles stay where they are.
+pub(super) fn begin_segment(options: CorrectedKernel, calls: &mut Vec<Call>) {
+    if options.keeps_gradients() {
+        list(false, calls);
+    } else if options.current() {
+        order(false, calls);
+    }
+}
+
+/// From state to acceleration.
+pub(super) fn force(options: CorrectedKernel, calls: &mut Vec<Call>) {
+    if !options.evolved() {
+        calls.push(summed(Pass::DeformByShape, true));
+    }
+    calls.push(call(Pass::ShapeStress));
+    shape(options, calls);
+    calls.push(summed(Pass::ShapeForce, !options.current()));
+}
+
+/// Shape functions of the present positions.
+fn shape(options: CorrectedKernel, calls: &mut Vec<Call>) {
+    if options.correction && options.current() {
+        calls.push(summed(Pass::ShapeFunction, false));
+    }
+}
+
+/// Leapfrog between the kicks: F is advanced in the middle, where positions and velocities are both at the half
+/// step.
+pub(super) fn drift(options: CorrectedKernel, calls: &mut Vec<Call>) {
+    if options.evolved() {
+        calls.push(drift_by(0.5));
+        list(false, calls);
+        shape(options, calls);
+        calls.push(call(Pass::EvolveDeformation));
+        calls.push(drift_by(0.5));
+        return;
+    }
+    calls.push(drift_by(1.0));
+    if options.current() {
+        list(false, calls);
+    }
+}
+
+/// Fields of these options; `staged`: in Runge-Kutta.
+pub(super) fn fields(options: CorrectedKernel, staged: bool) -> Vec<Field> {
+    use Field::*;
+    let wanted = [
+        (true, &[ShapeStress][..]),
+        (options.correction, &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+        (options.current(), &[VolumetricStrain]),
+        (options.keeps_gradients(), &[KeptCount]),
+        (options.evolved() && staged, &[DisplacementGradientRate, DisplacementGradientStart, DisplacementGradientSum]),
+    ];
+    wanted.iter().filter(|(on, _)| *on).flat_map(|(_, fields)| fields.iter().copied()).collect()
+}
