@@ -105,17 +105,27 @@ fn passes_agree_in_three_dimensions() {
 fn all_flags() -> BTreeSet<&'static str> {
     use lithosph::contact::Potential;
     use lithosph::material::Law;
+    use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
     use lithosph::scene::file::{ArtificialForm, Density, Descent, Gradient, Kind};
     let mut words = BTreeSet::new();
-    for (dimension, density, form, kind) in [
-        (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
-        (2, Density::Summation, ArtificialForm::Principal, Kind::TotalLagrangian),
-        (3, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian),
+    let sums = |deformation| CorrectedKernel {
+        correction: true,
+        configuration: Configuration::Current,
+        deformation,
+        velocity_gradient: VelocityGradient::Difference,
+    };
+    for (dimension, density, form, kind, corrected_kernel) in [
+        (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian, None),
+        (2, Density::Summation, ArtificialForm::Principal, Kind::TotalLagrangian, None),
+        (3, Density::Continuity, ArtificialForm::Scalar, Kind::CorrectedKernel, Some(sums(Deformation::Evolved))),
+        (3, Density::Continuity, ArtificialForm::Scalar, Kind::CorrectedKernel, Some(sums(Deformation::Reference))),
     ] {
         let method = Method {
             dimension,
             density,
             kind,
+            corrected_kernel,
+            integrator: lithosph::scene::file::Integrator::Rk2,
             laws: vec![Law::NeoHookean, Law::Maxwell],
             hourglass: true,
             gradient: if dimension == 3 { Gradient::Quadratic } else { Gradient::Adjoint },

@@ -7,6 +7,7 @@ use common::Random;
 use lithosph::backend::shader::{Shader, compose};
 use lithosph::material::Law;
 use lithosph::scene::Scene;
+use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
 use lithosph::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use lithosph::smoothing::Smoothing;
 use lithosph::state::Method;
@@ -84,6 +85,7 @@ fn random_method(random: &mut Random) -> Method {
     Method {
         dimension: 1 + random.below(3),
         kind: Kind::Eulerian,
+        corrected_kernel: None,
         contact: None,
         quasi_static: None,
         laws: vec![Law::Elastic],
@@ -136,12 +138,33 @@ fn random_lagrangian(random: &mut Random) -> Method {
     }
 }
 
+/// The same by corrected kernels, each of its combinations of options.
+fn random_corrected(random: &mut Random) -> Method {
+    let lagrangian = random_lagrangian(random);
+    let (configuration, deformation) = [
+        (Configuration::Current, Deformation::Evolved),
+        (Configuration::Current, Deformation::Reference),
+        (Configuration::Reference, Deformation::Reference),
+    ][random.below(3)];
+    let velocity_gradient = [VelocityGradient::Difference, VelocityGradient::Printed][random.below(2)];
+    let options = CorrectedKernel { correction: random.coin(), configuration, deformation, velocity_gradient };
+    Method {
+        kind: Kind::CorrectedKernel,
+        corrected_kernel: Some(options),
+        hourglass: false,
+        gradient: Gradient::Plain,
+        dissipated_energy: false,
+        ..lagrangian
+    }
+}
+
 #[test]
 fn shaders_of_random_methods_are_valid() {
     let (mut random, mut seen, mut wrong) = (Random(2026), HashSet::new(), BTreeSet::new());
     for _ in 0..400 {
         wrong.extend(check(&random_method(&mut random), &mut seen));
         wrong.extend(check(&random_lagrangian(&mut random), &mut seen));
+        wrong.extend(check(&random_corrected(&mut random), &mut seen));
     }
     assert!(seen.len() > 500, "{}", seen.len());
     assert!(wrong.is_empty(), "{}", wrong.into_iter().collect::<Vec<_>>().join("\n"));

@@ -190,6 +190,48 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             time: KINETIC_DAMPING,
             ..BARE
         },
+        Case {
+            name: "corrected kernel, rk3, planes",
+            planes: dimension,
+            boundary: true,
+            compensated: true,
+            laws: ["neo_hookean", "neo_hookean"],
+            formulation: "kind = \"corrected_kernel\"",
+            time: "integrator = \"ssp_rk3\"",
+            ..BARE
+        },
+        Case {
+            name: "corrected kernel, leapfrog, maxwell, periodic, two bodies, as printed",
+            units: STEEL,
+            bodies: 2,
+            periodic: true,
+            laws: ["maxwell", "neo_hookean"],
+            formulation: "kind = \"corrected_kernel\"\nsmoothing = \"wendland\"\nvelocity_gradient = \"printed\"",
+            ..BARE
+        },
+        Case {
+            name: "corrected kernel, displacements and current sums, oblique plane",
+            units: STEEL,
+            oblique: dimension > 1,
+            planes: usize::from(dimension == 1),
+            laws: ["neo_hookean", "neo_hookean"],
+            formulation: "kind = \"corrected_kernel\"\ndeformation = \"reference\"",
+            ..BARE
+        },
+        Case {
+            name: "corrected kernel, reference configuration, rk2, planes",
+            planes: dimension,
+            laws: ["st_venant_kirchhoff", "st_venant_kirchhoff"],
+            formulation: "kind = \"corrected_kernel\"\nconfiguration = \"reference\"",
+            time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
+            name: "bare kernel, leapfrog",
+            laws: ["neo_hookean", "neo_hookean"],
+            formulation: "kind = \"corrected_kernel\"\ncorrection = false",
+            ..BARE
+        },
     ];
     list.map(|case| Case { dimension, ..case }).to_vec()
 }

@@ -130,11 +130,19 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
             let rows = state.contacts.len() / count;
             Some((0..rows).flat_map(|k| (0..count).filter_map(move |a| entry(k, a))).collect())
         }
+        "kept_neighbors" => Some(kept(state).map(|place| state.kept_neighbors[place]).collect()),
         _ => match field(name) {
             Some(field) if field.kind() == Type::Integer => Some(bytemuck::cast_slice(state.particles.bytes(field)).to_vec()),
             _ => None,
         },
     }
+}
+
+/// Places of the neighbours kept, each particle's in order.
+fn kept<S: Space>(state: &State<S>) -> impl Iterator<Item = usize> {
+    let count = state.params.count as usize;
+    let counts = state.particles.kept_count.iter().enumerate();
+    counts.flat_map(move |(a, &kept)| (0..kept as usize).map(move |k| k * count + a))
 }
 
 /// The real numbers of a table, those of one kind together.
@@ -172,6 +180,10 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
         "block_bound" => {
             let column = |k: usize| state.block_bound.iter().map(|bound| bound[k].f64()).collect();
             (0..4).map(|k| one(&format!("block_bound.{}", ["x", "y", "z", "w"][k]), column(k))).collect()
+        }
+        "kept_gradients" => {
+            let rows = kept(state).map(|place| state.kept_gradients[place]);
+            vec![one(name, rows.flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
         }
         _ => match field(name) {
             Some(field) if field.kind() != Type::Integer => {

@@ -9,8 +9,18 @@ use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Params, SCA
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
-pub const TABLES: [&str; 8] =
-    ["clock", "cell_count", "cell_start", "cell_block", "cell_particles", "neighbors", "contacts", "block_bound"];
+pub const TABLES: [&str; 10] = [
+    "clock",
+    "cell_count",
+    "cell_start",
+    "cell_block",
+    "cell_particles",
+    "neighbors",
+    "contacts",
+    "kept_neighbors",
+    "kept_gradients",
+    "block_bound",
+];
 
 pub fn field(name: &str) -> Option<Field> {
     Field::ALL.iter().copied().find(|field| field.name() == name)
@@ -25,6 +35,8 @@ fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
         "cell_particles" => cast_slice(&state.cell_particles),
         "neighbors" => cast_slice(&state.neighbors),
         "contacts" => cast_slice(&state.contacts),
+        "kept_neighbors" => cast_slice(&state.kept_neighbors),
+        "kept_gradients" => cast_slice(&state.kept_gradients),
         "block_bound" => cast_slice(&state.block_bound),
         "block_residual" => cast_slice(&state.block_residual),
         _ => state.particles.bytes(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
@@ -39,6 +51,8 @@ fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] 
         "cell_particles" => cast_slice_mut(&mut state.cell_particles),
         "neighbors" => cast_slice_mut(&mut state.neighbors),
         "contacts" => cast_slice_mut(&mut state.contacts),
+        "kept_neighbors" => cast_slice_mut(&mut state.kept_neighbors),
+        "kept_gradients" => cast_slice_mut(&mut state.kept_gradients),
         "block_bound" => cast_slice_mut(&mut state.block_bound),
         "block_residual" => cast_slice_mut(&mut state.block_residual),
         _ => state.particles.bytes_mut(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
@@ -121,6 +135,8 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         cell_particles: from.cell_particles.clone(),
         neighbors: from.neighbors.clone(),
         contacts: from.contacts.clone(),
+        kept_neighbors: from.kept_neighbors.clone(),
+        kept_gradients: from.kept_gradients.iter().map(|&v| vector::<A, B>(v)).collect(),
         contact_pairs: from
             .contact_pairs
             .iter()
@@ -131,6 +147,12 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         balance: balance(&from.balance, real),
         block_residual: from.block_residual.iter().map(|measure| measure.map(real)).collect(),
     }
+}
+
+fn vector<A: Space, B: Space>(from: A::Vec) -> B::Vec {
+    let mut to = B::Vec::default();
+    (0..A::DIMENSION).for_each(|k| to[k] = B::Real::of(from[k].f64()));
+    to
 }
 
 fn particles<A: Space, B: Space>(from: &State<A>) -> Particles<B> {
@@ -286,7 +308,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let count = state.params.count as usize;
     let kind = field.kind();
     if kind == Type::Integer {
-        if matches!(field, Cell | NeighborCount | ContactCount) {
+        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
         }
@@ -318,7 +340,13 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             DisplacementGradient | ViscousStrain => 0.1 * random.signed(),
             ContactEnergy | HourglassEnergy => 1e-3 * speed * speed * random.unit(),
             BondStress => bulk * strain(random),
-            Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount => unreachable!(),
+            ShapeFactor => 1.0 + 0.1 * random.signed(),
+            ShapeSlope | ShapeFactorGradient => random.signed() / spacing,
+            ShapeSlopeGradient => random.signed() / spacing.powi(2),
+            ShapeStress => bulk * strain(random),
+            DisplacementGradientStart => 0.1 * random.signed(),
+            DisplacementGradientRate | DisplacementGradientSum => 0.02 * rate * random.signed(),
+            Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount | KeptCount => unreachable!(),
         }
     };
     let width = kind.words::<S>();
