@@ -55,7 +55,7 @@ fn moment<S: Space, B: Source<S>>(state: &State<S>, a: usize, h: S::Real) -> S::
             let p = |k: usize| if k < S::DIMENSION { d[k] } else { products[k - S::DIMENSION] };
             for row in 0..n {
                 for column in 0..n {
-                    moment[row * n + column] = moment[row * n + column] - bond.row.weight * p(row) * p(column);
+                    moment[row * n + column] -= bond.row.weight * p(row) * p(column);
                 }
             }
         }
@@ -84,7 +84,8 @@ fn inverted<S: Space>(mut m: S::Quadratic) -> Option<S::Quadratic> {
             let factor = m[row * n + k];
             m[row * n + k] = S::Real::of(0.0);
             for column in 0..n {
-                m[row * n + column] = m[row * n + column] - factor * m[k * n + column];
+                let part = factor * m[k * n + column];
+                m[row * n + column] -= part;
             }
         }
     }
