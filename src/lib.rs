@@ -15,6 +15,10 @@
 //!    law from [`material`].
 //! 5. [`pass::Pass::SpecificStress`] brings it into the form that forces are summed in, and
 //!    [`pass::Pass::Force`] sums them, with viscosity and artificial stress where the scene names them.
+//!
+//!    In the Total Lagrangian formulation the list is made once, where the particles were at the start
+//!    ([`step::prepare`]); [`pass::Pass::Deform`] finds the deformation gradient and the law's stress, and
+//!    [`pass::Pass::BondForce`] sums what the bonds carry of it, the derivative of an energy.
 //! 6. Every pass exists twice under one name: `shaders/pass/x.wgsl` and `src/pass/x.rs`. [`backend::gpu`] runs
 //!    the first in f32 with the state resident on the device; [`backend::cpu`] runs the second in f64 on all
 //!    cores. [`backend::shader`] composes the text of the first and reads its bindings back.
