@@ -5,7 +5,7 @@ mod study;
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
-use crate::{check, observable, particles, pass, run, scene, smoothing};
+use crate::{check, contact, material, observable, particles, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ enum Command {
     Check(CheckArgs),
     /// Paint stored particle states.
     Render(RenderArgs),
-    /// List kernels, passes, fields, observables; or the variants of a scene.
+    /// List kernels, laws, passes, fields, observables; or the variants of a scene.
     List { scene: Option<PathBuf> },
     /// List the adapters that a run can use.
     Devices,
@@ -343,6 +343,14 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
     say("smoothing kernels");
     for kernel in smoothing::Smoothing::ALL {
         say(&format!("  {:<24} {}", kernel.word(), kernel.about()));
+    }
+    say("material laws");
+    for law in material::Law::ALL {
+        say(&format!("  {:<24} {}", law.word(), law.about()));
+    }
+    say("contact potentials");
+    for potential in contact::Potential::ALL {
+        say(&format!("  {:<24} {}", potential.name(), potential.about()));
     }
     say("observables");
     for kind in observable::KINDS {

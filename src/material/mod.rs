@@ -31,6 +31,16 @@ pub enum Law {
 }
 
 impl Law {
+    pub const ALL: &'static [Law] = &[Law::Elastic, Law::Fluid, Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    pub fn about(self) -> &'static str {
+        match self {
+            Law::Elastic => "linear equation of state and hypoelastic deviator, Eulerian: the default",
+            Law::Fluid => "linear equation of state alone, Eulerian",
+            Law::StVenantKirchhoff => "stress linear in Green's strain: large rotations, small strains",
+            Law::NeoHookean => "neo-Hookean deviator, volumetric part of Hartmann & Neff: large strains",
+            Law::Maxwell => "finite viscoelasticity of Simo & Miehe: neo-Hookean, and relaxes by `viscosity`",
+        }
+    }
     /// Gives stress from the deformation gradient.
     pub fn is_finite_strain(self) -> bool {
         !matches!(self, Law::Elastic | Law::Fluid)

@@ -1,6 +1,7 @@
-//! The Total Lagrangian formulation. One crate, so that the passes are compiled once for all of it.
+//! The formulations that know where particles began. One crate, so that the passes are compiled once for all of it.
 
 mod buckling;
+mod choice;
 #[path = "../common/mod.rs"]
 mod common;
 mod material;
@@ -9,3 +10,5 @@ mod moment;
 mod operators;
 mod patches;
 mod quasi_static;
+mod shape_block;
+mod shape_functions;

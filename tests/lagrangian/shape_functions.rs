@@ -1,11 +1,7 @@
 //! The discrete operators of Shutov & Klyuchantsev's method: shape functions, their derivatives, and forces that
 //! belong to the deformation gradients.
 
-#[path = "shutov_operators/block.rs"]
-mod block;
-mod common;
-
-use block::{apart, irregular, text};
+use super::shape_block::{apart, irregular, text};
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::material::{first_piola, stored_energy};
