@@ -8,8 +8,6 @@
 #endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
-// For `course` alone: this pass does not touch it.
-@group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> equilibrium_displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;

@@ -1,6 +1,6 @@
 // v += part step a, then the boundary conditions. Twin: src/pass/kick.rs
 #import invocation
-#import course
+#import acceleration
 #if compensated
 #import compensated
 #endif

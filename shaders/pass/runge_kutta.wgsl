@@ -3,7 +3,7 @@
 //
 // Rates are summed, not states, so that f32 adds small numbers to small numbers until the last stage.
 #import invocation
-#import course
+#import acceleration
 #import moving_velocity
 #if compensated
 #import compensated

@@ -114,7 +114,7 @@ fn unknown_keys_and_words() {
         ),
         ("gaussian", "gausian", "21: unknown word `gausian` for `formulation.smoothing`, did you mean `gaussian`?"),
         ("gaussian", "cubic", "21: unknown word `cubic` for `formulation.smoothing`, did you mean `cubic_spline`?"),
-        ("rk4", "rk5", "35: unknown word `rk5` for `time.integrator`, expected `leapfrog`, `rk2`, `ssp_rk3` or `rk4`"),
+        ("rk4", "rk5", "35: unknown word `rk5` for `time.integrator`, expected `leapfrog`, `rk2`, `ssp_rk3`, `rk4` or `pefrl`"),
         ("{ ring", "{ rng", "8: unknown word `rng` for `body.0.shape`, did you mean `ring`?"),
         ("dimension = 2", "dimension = 2\nunits = \"si\"", "3: unknown word `si` for `units`, did you mean `SI`?"),
     ]);
