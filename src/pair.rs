@@ -218,6 +218,19 @@ pub fn pair_coupling<S: Space>(state: &State<S>, a: usize, b: usize) -> S::Real 
     if state.method.coupling { state.coupling_of(a, b) } else { S::Real::of(1.0) }
 }
 
+/// Inverse of a moment matrix of the reference configuration, or the unit tensor where the neighbours lie in a plane
+/// or on a line. Its numbers may be small, an eighth at the corner of a cube, as long as they are alike.
+pub fn reference_inverse<S: Space>(moment: S::Mat) -> S::Mat {
+    let determinant = S::determinant(moment);
+    let mean = S::trace(moment) * S::Real::of(1.0 / S::DIMENSION as f64);
+    let isotropic = (0..S::DIMENSION).fold(S::Real::of(1.0), |power, _| power * mean);
+    if determinant > S::Real::of(1e-3) * isotropic {
+        S::adjugate(moment) * (S::Real::of(1.0) / determinant)
+    } else {
+        S::mat_identity()
+    }
+}
+
 /// Inverse of a moment matrix, or the unit tensor where too few neighbours are left to define one.
 #[inline(always)]
 pub fn safe_inverse<S: Space>(moment: S::Mat) -> S::Mat {
