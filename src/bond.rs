@@ -83,22 +83,65 @@ impl<S: Space> Source<S> for Listed {
 
     #[inline(always)]
     fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>> {
-        let h = state.body(a).smoothing_length;
         state.neighbors_of(a).chunks(LANES).map(move |entries| {
-            let mut x = [S::Vec::default(); LANES];
-            let mut square = [h * h; LANES];
-            let mut volume = [S::Real::default(); LANES];
-            for (lane, &entry) in entries.iter().enumerate() {
-                x[lane] = reference_separation(state, a, entry);
-                square[lane] = S::inner(x[lane], x[lane]);
-                volume[lane] = state.particles.reference_volume[(entry & NEIGHBOR_MASK) as usize];
-            }
-            let slope = with_kernel!(state.method.smoothing, K => slopes::<S, K>(square, h));
+            let lanes = Lanes::new(state, a, entries);
             (0..entries.len()).map(move |lane| {
                 let (b, image) = split(entries[lane]);
-                Bond { b, image, row: Row::new(x[lane], slope[lane], volume[lane]) }
+                Bond { b, image, row: lanes.row(lane) }
             })
         })
+    }
+}
+
+/// The rows of eight bonds, component by component, so that the processor works on all eight together.
+struct Lanes<S: Space> {
+    x: [[S::Real; LANES]; 3],
+    gradient: [[S::Real; LANES]; 3],
+    weight: [S::Real; LANES],
+}
+
+impl<S: Space> Lanes<S> {
+    #[inline(always)]
+    fn new(state: &State<S>, a: usize, entries: &[u32]) -> Self {
+        let h = state.body(a).smoothing_length;
+        // A lane that is left over has no weight.
+        let (mut x, mut weight) = ([[h; LANES]; 3], [S::Real::default(); LANES]);
+        for (lane, &entry) in entries.iter().enumerate() {
+            let apart = reference_separation(state, a, entry);
+            for k in 0..S::DIMENSION {
+                x[k][lane] = apart[k];
+            }
+            weight[lane] = state.particles.reference_volume[split(entry).0];
+        }
+        let mut square = [S::Real::default(); LANES];
+        for component in x.iter().take(S::DIMENSION) {
+            for (sum, &x) in square.iter_mut().zip(component) {
+                *sum += x * x;
+            }
+        }
+        let slope = with_kernel!(state.method.smoothing, K => slopes::<S, K>(square, h));
+        let mut gradient = x;
+        for lane in 0..LANES {
+            weight[lane] = weight[lane] * slope[lane];
+        }
+        for component in gradient.iter_mut().take(S::DIMENSION) {
+            for (x, &weight) in component.iter_mut().zip(&weight) {
+                *x = *x * weight;
+            }
+        }
+        Self { x, gradient, weight }
+    }
+
+    #[inline(always)]
+    fn row(&self, lane: usize) -> Row<S> {
+        let gather = |from: &[[S::Real; LANES]; 3]| {
+            let mut v = S::Vec::default();
+            for k in 0..S::DIMENSION {
+                v[k] = from[k][lane];
+            }
+            v
+        };
+        Row { x: gather(&self.x), gradient: gather(&self.gradient), weight: self.weight[lane] }
     }
 }
 

@@ -90,9 +90,12 @@ impl<S: Space> Backend for Cpu<S> {
     fn advance(&mut self) -> Result<Clock<f64>, String> {
         let begin = Instant::now();
         let step = self.step.clone();
-        while self.state.clock.running == 1 && begin.elapsed() < PATIENCE {
-            self.run(&step);
-        }
+        // Among the workers, so that not every pass wakes them anew.
+        rayon::scope(|_| {
+            while self.state.clock.running == 1 && begin.elapsed() < PATIENCE {
+                self.run(&step);
+            }
+        });
         Ok(self.state.clock.to_f64())
     }
 

@@ -20,6 +20,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
+    // Where nothing else comes between deformation and stress, one loop does both.
+    let at_once = !state.method.memory() && state.method.gradient != Gradient::Quadratic;
     let hourglass = S::Real::of(-1.0) * state.params.hourglass;
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     let mut stresses = std::mem::take(&mut state.particles.bond_stress);
@@ -34,9 +36,16 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
                 *gradient = quadratic_gradient::<S, B>(state, a, stress);
             }
             *stress = linear * (hourglass * state.body(a).youngs_modulus);
+            if at_once {
+                *stress += corrected(state, a, &piola(state, a, *gradient));
+            }
         });
     });
     state.particles.displacement_gradient = gradients;
+    if at_once {
+        state.particles.bond_stress = stresses;
+        return;
+    }
     relax(state, &before);
     super::write(&mut stresses, |a, slot| *slot += bond_stress(state, a));
     state.particles.bond_stress = stresses;
@@ -100,9 +109,14 @@ fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::Mat {
 
 /// P_a
 #[inline(always)]
-fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
+fn piola<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
     let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
-    material::first_piola::<S>(state.body(a), state.particles.displacement_gradient[a], memory)
+    material::first_piola::<S>(state.body(a), gradient, memory)
+}
+
+#[inline(always)]
+fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
+    piola(state, a, state.particles.displacement_gradient[a])
 }
 
 /// P_a K_a^-1, or P_a C1
