@@ -14,6 +14,7 @@ use crate::smoothing::{Kernel, Scaled, with_kernel};
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
 use crate::tensor::{Linear, Real, Space};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A neighbour in the reference configuration.
 #[derive(Clone, Copy)]
@@ -42,12 +43,18 @@ impl<S: Space> Row<S> {
     }
 }
 
-/// Where a pass has its bonds from. They come as an iterator of iterators: two plain loops optimise better than
-/// one that goes across blocks.
+/// Where a pass has its bonds from: `for part in B::parts(state, a) { let block = B::load(state, a, part); … }`, then
+/// `B::bond(&block, lane)` for each of the part. Plain loops over a local block: as iterators the blocks were moved
+/// about in memory, which took most of the time.
 pub trait Source<S: Space> {
     /// Some bonds may end in a mirror image. Without the branch for these a loop stays in vector registers.
     const IMAGES: bool;
-    fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>>;
+    /// The bonds of a part, made ready together.
+    type Block<'s>;
+    /// The particle's list in parts.
+    fn parts(state: &State<S>, a: usize) -> impl Iterator<Item = Range<usize>>;
+    fn load(state: &State<S>, a: usize, part: Range<usize>) -> Self::Block<'_>;
+    fn bond(block: &Self::Block<'_>, lane: usize) -> Bond<S>;
 }
 
 /// Bonds evaluated anew, eight together. The kernel is chosen for each eight, not for the whole loop: the passes are
@@ -80,21 +87,27 @@ const LANES: usize = 8;
 
 impl<S: Space> Source<S> for Listed {
     const IMAGES: bool = true;
+    type Block<'s> = Lanes<S>;
 
     #[inline(always)]
-    fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>> {
-        state.neighbors_of(a).chunks(LANES).map(move |entries| {
-            let lanes = Lanes::new(state, a, entries);
-            (0..entries.len()).map(move |lane| {
-                let (b, image) = split(entries[lane]);
-                Bond { b, image, row: lanes.row(lane) }
-            })
-        })
+    fn parts(state: &State<S>, a: usize) -> impl Iterator<Item = Range<usize>> {
+        let count = state.neighbors_of(a).len();
+        (0..count).step_by(LANES).map(move |first| first..(first + LANES).min(count))
+    }
+    #[inline(always)]
+    fn load(state: &State<S>, a: usize, part: Range<usize>) -> Lanes<S> {
+        Lanes::new(state, a, &state.neighbors_of(a)[part])
+    }
+    #[inline(always)]
+    fn bond(block: &Lanes<S>, lane: usize) -> Bond<S> {
+        let (b, image) = split(block.entry[lane]);
+        Bond { b, image, row: block.row(lane) }
     }
 }
 
 /// The rows of eight bonds, component by component, so that the processor works on all eight together.
-struct Lanes<S: Space> {
+pub struct Lanes<S: Space> {
+    entry: [u32; LANES],
     x: [[S::Real; LANES]; 3],
     gradient: [[S::Real; LANES]; 3],
     weight: [S::Real; LANES],
@@ -106,11 +119,13 @@ impl<S: Space> Lanes<S> {
         let h = state.body(a).smoothing_length;
         // A lane that is left over has no weight.
         let (mut x, mut weight) = ([[h; LANES]; 3], [S::Real::default(); LANES]);
+        let mut own = [0; LANES];
         for (lane, &entry) in entries.iter().enumerate() {
             let apart = reference_separation(state, a, entry);
             for k in 0..S::DIMENSION {
                 x[k][lane] = apart[k];
             }
+            own[lane] = entry;
             weight[lane] = state.particles.reference_volume[split(entry).0];
         }
         let mut square = [S::Real::default(); LANES];
@@ -129,7 +144,7 @@ impl<S: Space> Lanes<S> {
                 *x = *x * weight;
             }
         }
-        Self { x, gradient, weight }
+        Self { entry: own, x, gradient, weight }
     }
 
     #[inline(always)]
@@ -150,22 +165,38 @@ impl<S: Space> Lanes<S> {
 fn slopes<S: Space, K: Kernel>(square: [S::Real; LANES], h: S::Real) -> [S::Real; LANES] {
     let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
     let (inverse, factor) = (S::Real::of(1.0) / h, kernel.gradient_factor(h));
-    square.map(|square| kernel.gradient_at::<K>(square.sqrt(), h, inverse, factor))
+    let mut slopes = square;
+    for slope in &mut slopes {
+        *slope = kernel.gradient_at::<K>(slope.sqrt(), h, inverse, factor);
+    }
+    slopes
+}
+
+/// A particle's list with the rows of its bonds.
+pub struct Places<'s, S: Space> {
+    entries: &'s [u32],
+    places: &'s [u32],
+    rows: &'s [Row<S>],
 }
 
 impl<S: Space, const IMAGES: bool> Source<S> for Tabulated<IMAGES> {
     const IMAGES: bool = IMAGES;
+    type Block<'s> = Places<'s, S>;
 
     #[inline(always)]
-    fn blocks(state: &State<S>, a: usize) -> impl Iterator<Item = impl Iterator<Item = Bond<S>>> {
+    fn parts(state: &State<S>, a: usize) -> impl Iterator<Item = Range<usize>> {
+        std::iter::once(0..state.neighbors_of(a).len())
+    }
+    #[inline(always)]
+    fn load(state: &State<S>, a: usize, part: Range<usize>) -> Places<'_, S> {
         let first = a * state.params.list_capacity as usize;
-        let entries = state.neighbors_of(a);
-        let places = &state.bond_table.place[first..first + entries.len()];
-        let rows = &state.bond_table.rows[..];
-        std::iter::once(entries.iter().zip(places).map(move |(&entry, &place)| {
-            let (b, image) = split(entry);
-            Bond { b, image, row: rows[place as usize] }
-        }))
+        let places = &state.bond_table.place[first..first + part.len()];
+        Places { entries: &state.neighbors_of(a)[part], places, rows: &state.bond_table.rows }
+    }
+    #[inline(always)]
+    fn bond(block: &Places<S>, lane: usize) -> Bond<S> {
+        let (b, image) = split(block.entries[lane]);
+        Bond { b, image, row: block.rows[block.places[lane] as usize] }
     }
 }
 

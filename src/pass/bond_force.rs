@@ -37,8 +37,10 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     let body = state.body(a);
     // Bonds join particles of one body, so both ends have the same stiffness.
     let stiffness = S::Real::of(2.0) * state.params.hourglass * body.youngs_modulus;
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let mut stress = particles.bond_stress[bond.b];
             if B::IMAGES && bond.image != 0 {
                 stress = mirror_tensor::<S>(&state.params, bond.image, stress);
@@ -59,8 +61,10 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
 fn quadratic_part<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     let stress = &state.particles.quadratic_stress;
     let mut sum = S::Vec::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let products = S::products(bond.row.x) * (S::Real::of(-1.0) * bond.row.weight);
             sum += S::tri_sym(stress[a] - stress[bond.b], products);
         }

@@ -30,8 +30,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 /// Acceleration, and half of the power that the bonds turn into heat, per mass.
 fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
     let (mut acceleration, mut power) = (S::Vec::default(), S::Real::of(0.0));
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let v_ba = velocity_difference::<S, B>(state, a, &bond);
             let friction = friction::<S, B>(state, a, &bond, v_ba);
             acceleration += friction;

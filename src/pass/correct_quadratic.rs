@@ -48,8 +48,10 @@ fn coefficients_of<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Sy
 fn moment<S: Space, B: Source<S>>(state: &State<S>, a: usize, h: S::Real) -> S::Quadratic {
     let n = terms::<S>();
     let mut moment = S::Quadratic::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let d = bond.row.x * (S::Real::of(-1.0) / h);
             let products = S::products(d);
             let p = |k: usize| if k < S::DIMENSION { d[k] } else { products[k - S::DIMENSION] };

@@ -18,8 +18,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn moment<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut moment = S::Mat::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             moment = moment - S::outer(bond.row.x, bond.row.gradient);
         }
     }

@@ -76,8 +76,10 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
 #[inline(always)]
 fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
         }
     }
@@ -87,8 +89,10 @@ fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
 /// H of the quadratic fit, from the sum over the separations and another over their products.
 fn quadratic_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize, first: &S::Mat) -> S::Mat {
     let mut second = S::Tri::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let products = S::products(bond.row.x) * (S::Real::of(-1.0) * bond.row.weight);
             second += S::tri_outer(displacement_difference::<S, B>(state, a, &bond), products);
         }

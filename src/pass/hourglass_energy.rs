@@ -19,8 +19,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
     let gradient = linear_gradient::<S, B>(state, a);
     let mut sum = S::Real::of(0.0);
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             let stray = displacement_difference::<S, B>(state, a, &bond) + S::mat_vec(gradient, bond.row.x);
             sum += S::inner(stray, stray) * (S::Real::of(-1.0) * bond.row.weight);
         }
@@ -31,8 +33,10 @@ fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
 
 fn linear_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for block in B::blocks(state, a) {
-        for bond in block {
+    for part in B::parts(state, a) {
+        let block = B::load(state, a, part.clone());
+        for lane in 0..part.len() {
+            let bond = B::bond(&block, lane);
             sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
         }
     }

@@ -49,7 +49,11 @@ fn energy(state: &State<S>) -> f64 {
             let stray = S::mat_vec(h, bond.row.x * -1.0) - moved;
             -bond.row.weight * S::inner(stray, stray)
         };
-        let hourglass: f64 = <Listed as Source<S>>::blocks(state, a).flatten().map(stray).sum();
+        let bonds = |part: std::ops::Range<usize>| {
+            let block = <Listed as Source<S>>::load(state, a, part.clone());
+            part.enumerate().map(|(lane, _)| <Listed as Source<S>>::bond(&block, lane)).collect::<Vec<_>>()
+        };
+        let hourglass: f64 = <Listed as Source<S>>::parts(state, a).flat_map(bonds).map(stray).sum();
         state.particles.reference_volume[a] * (elastic + 0.5 * state.params.hourglass * body.youngs_modulus * hourglass)
     };
     (0..state.particles.displacement.len()).map(particle).sum()
