@@ -1,7 +1,7 @@
 // H_a = [sum V_b (u_b - u_a) (x) grad_a W_ab] K_a^-1, the stress P_a of the material, and what the bonds carry of
 // it, P_a K_a^-1 - alpha E H_a. Twin: src/pass/deform.rs
 #import invocation
-#import displacement_difference
+#import linear_gradient
 #import laws
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -74,29 +74,6 @@ fn sum_products(a: u32, row: u32) -> Tri {
     return sum;
 }
 #endif
-
-fn sum_bonds(a: u32, row: u32) -> Mat {
-    let h = body_of(a).smoothing_length;
-    let center = reference_position[a];
-    let displacement_a = displacement[a];
-    let count = neighbor_count[a];
-    var sum = Mat();
-    for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
-        let weight = bond.gradient * reference_volume[bond.b];
-        sum += outer(displacement_difference(displacement_a, bond), bond.x * weight);
-    }
-    return sum;
-}
-
-// M K_a^-1
-fn corrected(a: u32, m: Mat) -> Mat {
-#if correct_rate
-    return mat_mat(m, mat_of_sym(reference_correction[a]));
-#else
-    return m;
-#endif
-}
 
 #if memory
 // Takes what the law remembers to the end of the step, at the new H. Before the first step the clock's is 0.

@@ -1,7 +1,7 @@
 // Energy of the hourglass term of one particle, V_a (alpha E/2) sum V_b w |H_a X_ab - u_ab|^2 with w = -W'(R)/R and
 // the linear H. Twin: src/pass/hourglass_energy.rs
 #import invocation
-#import displacement_difference
+#import linear_gradient
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -22,7 +22,7 @@ fn main(invocation: Invocation) {
     let own_body = body_of(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
-    let gradient = linear_gradient(a, row);
+    let gradient = corrected(a, sum_bonds(a, row));
     let count = neighbor_count[a];
     var sum: real = 0.0;
     for (var k = 0u; k < count; k++) {
@@ -31,21 +31,4 @@ fn main(invocation: Invocation) {
         sum += inner(stray, stray) * (-bond.gradient * reference_volume[bond.b]);
     }
     hourglass_energy[a] = 0.5 * params.hourglass * own_body.youngs_modulus * reference_volume[a] * sum;
-}
-
-fn linear_gradient(a: u32, row: u32) -> Mat {
-    let h = body_of(a).smoothing_length;
-    let center = reference_position[a];
-    let displacement_a = displacement[a];
-    let count = neighbor_count[a];
-    var sum = Mat();
-    for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
-        sum += outer(displacement_difference(displacement_a, bond), bond.x * (bond.gradient * reference_volume[bond.b]));
-    }
-#if correct_rate
-    return mat_mat(sum, mat_of_sym(reference_correction[a]));
-#else
-    return sum;
-#endif
 }

@@ -27,7 +27,7 @@ macro_rules! library {
 }
 
 library! {
-    lib: acceleration, body, body_index, bond, contact_pair, descent, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, mass, mirror,
+    lib: acceleration, body, body_index, bond, contact_pair, descent, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, linear_gradient, mass, mirror,
         moving_velocity, pair, pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d, unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }

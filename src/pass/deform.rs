@@ -73,8 +73,9 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
     }
 }
 
+/// sum V_b (u_b - u_a) (x) grad_a W_ab
 #[inline(always)]
-fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
+pub(super) fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
     for part in B::parts(state, a) {
         let block = B::load(state, a, part.clone());
@@ -104,7 +105,7 @@ fn quadratic_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize, first:
 
 /// M K_a^-1. Out of line, so that the sums of the loop over bonds stay in vector registers.
 #[inline(never)]
-fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::Mat {
+pub(super) fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::Mat {
     if state.method.gradient == Gradient::Plain {
         return *m;
     }

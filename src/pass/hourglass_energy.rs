@@ -2,8 +2,8 @@
 //! the linear H: see [`super::bond_force`]. Run only when asked for. Twin: shaders/pass/hourglass_energy.wgsl
 
 use super::Stage;
+use super::deform::{corrected, sum_bonds};
 use crate::bond::{Source, displacement_difference, with_bonds};
-use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -17,7 +17,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 }
 
 fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
-    let gradient = linear_gradient::<S, B>(state, a);
+    let gradient = corrected(state, a, &sum_bonds::<S, B>(state, a));
     let mut sum = S::Real::of(0.0);
     for part in B::parts(state, a) {
         let block = B::load(state, a, part.clone());
@@ -29,19 +29,4 @@ fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
     }
     let stiffness = state.params.hourglass * state.body(a).youngs_modulus;
     S::Real::of(0.5) * stiffness * state.particles.reference_volume[a] * sum
-}
-
-fn linear_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
-    let mut sum = S::Mat::default();
-    for part in B::parts(state, a) {
-        let block = B::load(state, a, part.clone());
-        for lane in 0..part.len() {
-            let bond = B::bond(&block, lane);
-            sum += S::outer(displacement_difference::<S, B>(state, a, &bond), bond.row.gradient);
-        }
-    }
-    if state.method.gradient == Gradient::Plain {
-        return sum;
-    }
-    S::mat_mat(sum, S::mat_of_sym(state.particles.reference_correction[a]))
 }
