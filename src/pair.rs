@@ -218,23 +218,21 @@ pub fn pair_coupling<S: Space>(state: &State<S>, a: usize, b: usize) -> S::Real 
     if state.method.coupling { state.coupling_of(a, b) } else { S::Real::of(1.0) }
 }
 
-/// Inverse of a moment matrix of the reference configuration, or the unit tensor where the neighbours lie in a plane
-/// or on a line. Its numbers may be small, an eighth at the corner of a cube, as long as they are alike.
-pub fn reference_inverse<S: Space>(moment: S::Mat) -> S::Mat {
+/// Inverse of a moment matrix, or `otherwise` where the neighbours lie on a line or a plane. Its numbers may be small,
+/// as at the corner of a cube, as long as they are alike.
+#[inline(always)]
+pub fn inverse_or<S: Space>(moment: S::Mat, otherwise: S::Mat) -> S::Mat {
     let determinant = S::determinant(moment);
     let mean = S::trace(moment) * S::Real::of(1.0 / S::DIMENSION as f64);
-    let isotropic = (0..S::DIMENSION).fold(S::Real::of(1.0), |power, _| power * mean);
-    if determinant > S::Real::of(1e-3) * isotropic {
-        S::adjugate(moment) * (S::Real::of(1.0) / determinant)
-    } else {
-        S::mat_identity()
-    }
+    let least = (0..S::DIMENSION).fold(S::Real::of(1e-3), |power, _| power * mean);
+    if determinant > least { S::adjugate(moment) * (S::Real::of(1.0) / determinant) } else { otherwise }
 }
 
 /// Inverse of a moment matrix, or the unit tensor where too few neighbours are left to define one.
 #[inline(always)]
 pub fn safe_inverse<S: Space>(moment: S::Mat) -> S::Mat {
     let determinant = S::determinant(moment);
-    // A corner particle of a cube keeps an eighth of its moment; below that the correction amplifies noise.
+    // A particle of a body that tears may keep few neighbours: below this the correction amplifies noise. In space
+    // the edges of a body are below it too, where h is large.
     if determinant > S::Real::of(0.02) { S::adjugate(moment) * (S::Real::of(1.0) / determinant) } else { S::mat_identity() }
 }

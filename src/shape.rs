@@ -11,7 +11,7 @@
 //!
 //! The particle at x is one of the b. Twin: shaders/lib/shape.wgsl, shape_node.wgsl and shape_columns.wgsl
 
-use crate::pair::{mirror_vector, pair_coupling, reference_separation, separation};
+use crate::pair::{inverse_or, mirror_vector, pair_coupling, reference_separation, separation};
 use crate::smoothing::{Kernel, Scaled};
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
 use crate::tensor::{Real, Space};
@@ -115,14 +115,7 @@ fn differentiate<S: Space>(of: &Moments<S>, slope: S::Vec, inverse: S::Mat, of_g
 fn inverse_or_zero<S: Space>(moment: S::Mat, h: S::Real) -> S::Mat {
     // In units of h, so that f32 holds the determinant of the smallest scene.
     let scale = S::Real::of(1.0) / (h * h);
-    let scaled = moment * scale;
-    let mean = S::trace(scaled) * S::Real::of(1.0 / S::DIMENSION as f64);
-    let mut least = S::Real::of(1e-3);
-    for _ in 0..S::DIMENSION {
-        least = least * mean;
-    }
-    let determinant = S::determinant(scaled);
-    if determinant > least { S::adjugate(scaled) * (scale / determinant) } else { S::Mat::default() }
+    inverse_or::<S>(moment * scale, S::Mat::default()) * scale
 }
 
 impl<S: Space> Shape<S> {

@@ -1,25 +1,29 @@
-// Inverse of a moment matrix, or the unit tensor where too few neighbours are left to define one.
-// Twin: safe_inverse in src/pair.rs
+// Inverses of moment matrices. Twins: inverse_or, safe_inverse in src/pair.rs
 #import tensor
 
-// A corner particle of a cube keeps an eighth of its moment; below this the correction amplifies noise.
-const SMALLEST_DETERMINANT: real = 0.02;
+// Of the determinant, over the mean principal moment to the power of the dimension.
+const LEAST_DETERMINANT: real = 1e-3;
 
-// Inverse of a moment matrix of the reference configuration, or the unit tensor where the neighbours lie in a plane
-// or on a line. Its numbers may be small, an eighth at the corner of a cube, as long as they are alike.
-fn reference_inverse(moment: Mat) -> Mat {
-    let determinant = determinant_mat(moment);
+// Or `otherwise` where the neighbours lie on a line or a plane. The numbers may be small, as at the corner of a cube, as
+// long as they are alike.
+fn inverse_or(moment: Mat, otherwise: Mat) -> Mat {
     let mean = trace(moment) * (1.0 / real(DIMENSION));
-    var isotropic: real = 1.0;
+    var least = LEAST_DETERMINANT;
     for (var k = 0u; k < DIMENSION; k++) {
-        isotropic *= mean;
+        least *= mean;
     }
-    if determinant > 1e-3 * isotropic {
+    let determinant = determinant_mat(moment);
+    if determinant > least {
         return adjugate(moment) * (1.0 / determinant);
     }
-    return mat_identity();
+    return otherwise;
 }
 
+// A particle of a body that tears may keep few neighbours: below this the correction amplifies noise. In space the
+// edges of a body are below it too, where h is large.
+const SMALLEST_DETERMINANT: real = 0.02;
+
+// Or the unit tensor where too few neighbours are left to define one.
 fn safe_inverse(moment: Mat) -> Mat {
     let determinant = determinant_mat(moment);
     if determinant > SMALLEST_DETERMINANT {

@@ -7,6 +7,7 @@
 //
 // Twin: src/pass/shape_function.rs and src/shape.rs
 #import invocation
+#import inverse
 #import shape_node
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -20,9 +21,6 @@
 @group(0) @binding(_) var<storage, read_write> shape_slope: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> shape_factor_gradient: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> shape_slope_gradient: array<Mat>;
-
-// Of the determinant, over the mean principal moment to the power of the dimension.
-const LEAST_DETERMINANT: real = 1e-3;
 
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
@@ -86,15 +84,5 @@ fn corrected(center: Center) -> Shape {
 fn inverse_or_zero(moment: Mat, h: real) -> Mat {
     // In units of h, so that f32 holds the determinant of the smallest scene.
     let scale = 1.0 / (h * h);
-    let scaled = moment * scale;
-    let mean = trace(scaled) * (1.0 / real(DIMENSION));
-    var least = LEAST_DETERMINANT;
-    for (var k = 0u; k < DIMENSION; k++) {
-        least *= mean;
-    }
-    let determinant = determinant_mat(scaled);
-    if determinant > least {
-        return adjugate(scaled) * (scale / determinant);
-    }
-    return Mat();
+    return inverse_or(moment * scale, Mat()) * scale;
 }

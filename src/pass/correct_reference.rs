@@ -3,14 +3,14 @@
 
 use super::Stage;
 use crate::bond::{Source, with_bonds};
-use crate::pair::reference_inverse;
+use crate::pair::inverse_or;
 use crate::state::State;
 use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut corrections = std::mem::take(&mut state.particles.reference_correction);
     with_bonds!(state, B => {
-        super::write(&mut corrections, |a, slot| *slot = S::sym_part(reference_inverse::<S>(moment::<S, B>(state, a))));
+        super::write(&mut corrections, |a, slot| *slot = S::sym_part(inverse_or::<S>(moment::<S, B>(state, a), S::mat_identity())));
     });
     state.particles.reference_correction = corrections;
 }
