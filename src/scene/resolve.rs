@@ -514,6 +514,11 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {
         "the quadratic gradient belongs to formulation.kind `total_lagrangian`, and does not see mirror images: no [[symmetry]]".into()
     })?;
+    let touches = file.contact.iter().any(|contact| contact.potential.is_some());
+    refuse.unless(!lagrangian || touches || f.list_margin.is_none(), &["formulation", "list_margin"], || {
+        "list_margin is that of a list that follows the particles: a Total Lagrangian scene has one only where bodies touch"
+            .into()
+    })?;
     refuse.unless(lagrangian || f.bond_table.is_none(), &["formulation", "bond_table"], || {
         "bond_table belongs to formulation.kind `total_lagrangian`".into()
     })?;

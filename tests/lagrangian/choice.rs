@@ -102,6 +102,7 @@ fn what_does_not_go_together_is_refused_in_one_sentence() {
         (&["material.rubber.law='elastic'"], "takes a material whose law is"),
         (&["formulation.xsph=0.5"], "xsph belongs to formulation.kind `eulerian`"),
         (&["formulation.artificial_stress={ epsilon = 0.3 }"], "artificial_stress belongs to formulation.kind `eulerian`"),
+        (&["formulation.list_margin=0.2"], "only where bodies touch"),
         (&["formulation.hourglass=-1"], "hourglass must be 0 or a positive number"),
         (&["body.block.relative_volume=0.9"], "starts unstressed"),
         (&["material.rubber.viscosity=1"], "only the law `maxwell` takes"),
