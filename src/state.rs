@@ -67,6 +67,10 @@ impl Method {
     pub fn staged(&self) -> bool {
         !matches!(self.integrator, Integrator::Leapfrog | Integrator::Pefrl)
     }
+    /// Viscosity turns energy into heat at a rate that the kicks add up; a law that relaxes adds up its own.
+    pub fn dissipated_power(&self) -> bool {
+        self.dissipated_energy && self.viscosity
+    }
     /// Some law remembers more than the deformation.
     pub fn memory(&self) -> bool {
         self.laws.iter().any(|law| law.has_memory())
@@ -110,6 +114,7 @@ impl Method {
             ("adjoint", self.gradient == Gradient::Adjoint),
             ("internal_energy", self.internal_energy),
             ("dissipated_energy", self.dissipated_energy),
+            ("dissipated_power", self.dissipated_power()),
             ("pair_velocity", self.viscosity || self.internal_energy),
             ("pair_volume", self.viscosity || self.gradient == Gradient::Adjoint),
             ("compensated", self.compensated),

@@ -288,7 +288,8 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (method.quasi_static.is_some(), &[EquilibriumDisplacement]),
         (shear, &[DeviatoricStress]),
         (method.internal_energy, &[InternalEnergy, InternalPower]),
-        (method.dissipated_energy, &[DissipatedEnergy, DissipatedPower]),
+        (method.dissipated_energy, &[DissipatedEnergy]),
+        (method.dissipated_power(), &[DissipatedPower]),
         (method.xsph || method.velocity_filter, &[SmoothedVelocity]),
         (eulerian && adjoint, &[Correction, CorrectedStress]),
         (eulerian && !adjoint, &[Field::SpecificStress]),
@@ -298,7 +299,7 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (staged && continuity, &[VolumetricStrainRate, VolumetricStrainStart, VolumetricStrainSum]),
         (staged && shear, &[DeviatoricStressRate, DeviatoricStressStart, DeviatoricStressSum]),
         (staged && method.internal_energy, &[InternalEnergyStart, InternalEnergySum]),
-        (staged && method.dissipated_energy, &[DissipatedEnergyStart, DissipatedEnergySum]),
+        (staged && method.dissipated_power(), &[DissipatedEnergyStart, DissipatedEnergySum]),
     ];
     let own = method.corrected_kernel.map_or_else(Vec::new, |options| corrected_kernel::fields(options, staged));
     let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect();

@@ -18,7 +18,7 @@
 @group(0) @binding(_) var<storage, read> internal_power: array<real>;
 @group(0) @binding(_) var<storage, read_write> internal_energy: array<real>;
 #endif
-#if dissipated_energy
+#if dissipated_power
 @group(0) @binding(_) var<storage, read> dissipated_power: array<real>;
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 #endif
@@ -55,7 +55,7 @@ fn main(invocation: Invocation) {
     let change = (velocity[a] - before) * later;
     internal_energy[a] += (internal_power[a] - inner(acceleration[a], change)) * part;
 #endif
-#if dissipated_energy
+#if dissipated_power
     dissipated_energy[a] += dissipated_power[a] * part;
 #endif
 }

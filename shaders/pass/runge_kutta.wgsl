@@ -51,7 +51,7 @@
 @group(0) @binding(_) var<storage, read_write> internal_energy_start: array<real>;
 @group(0) @binding(_) var<storage, read_write> internal_energy_sum: array<real>;
 #endif
-#if dissipated_energy
+#if dissipated_power
 @group(0) @binding(_) var<storage, read> dissipated_power: array<real>;
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 @group(0) @binding(_) var<storage, read_write> dissipated_energy_start: array<real>;
@@ -106,7 +106,7 @@ fn main(invocation: Invocation) {
     }
     internal_energy_sum[a] = energy.sum;
 #endif
-#if dissipated_energy
+#if dissipated_power
     let heat = advance_scalar(
         dissipated_energy[a],
         dissipated_energy_start[a],

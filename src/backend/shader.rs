@@ -27,8 +27,10 @@ macro_rules! library {
 }
 
 library! {
-    lib: acceleration, body, body_index, bond, contact_pair, descent, displacement_difference, cell, compensated, coupling, course, density, inverse, invocation, kernel, linear_gradient, mass, mirror,
-        moving_velocity, pair, pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d, unbalanced, visit_cells, volume;
+    lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, density, descent,
+        displacement_difference, inverse, invocation, kernel, linear_gradient, mass, mirror, moving_velocity, pair,
+        pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d,
+        unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
 
@@ -68,6 +70,7 @@ const FLAGS: &[&str] = &[
     "quadratic_gradient",
     "internal_energy",
     "dissipated_energy",
+    "dissipated_power",
     "pair_velocity",
     "pair_volume",
     "compensated",
