@@ -9,7 +9,7 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
-#if dissipated_energy
+#if dissipated_power
 @group(0) @binding(_) var<storage, read_write> dissipated_power: array<real>;
 #endif
 
@@ -37,7 +37,7 @@ fn main(invocation: Invocation) {
         power += 0.5 * inner(v_ba, friction);
     }
     acceleration[a] += sum;
-#if dissipated_energy
+#if dissipated_power
     dissipated_power[a] = power;
 #endif
 }

@@ -46,7 +46,7 @@
 #if internal_energy
 @group(0) @binding(_) var<storage, read_write> internal_power: array<real>;
 #endif
-#if dissipated_energy
+#if dissipated_power
 @group(0) @binding(_) var<storage, read_write> dissipated_power: array<real>;
 #endif
 
@@ -90,7 +90,7 @@ fn main(invocation: Invocation) {
 #if internal_energy
     internal_power[a] = sums.internal_power;
 #endif
-#if dissipated_energy
+#if dissipated_power
     dissipated_power[a] = sums.dissipated_power;
 #endif
 }
@@ -146,7 +146,7 @@ fn sum_pairs(a: u32, row: u32) -> Sums {
 #if viscosity
         let friction = gradient * (-mass_b * viscosity(own, pair, v_ba));
         force += friction;
-#if dissipated_energy
+#if dissipated_power
         sums.dissipated_power += 0.5 * inner(v_ba, friction);
 #endif
 #endif

@@ -21,7 +21,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let particles = &mut state.particles;
     for (a, (acceleration, power)) in sums.into_iter().enumerate() {
         particles.acceleration[a] += acceleration;
-        if state.method.dissipated_energy {
+        if state.method.dissipated_power() {
             particles.dissipated_power[a] = power;
         }
     }

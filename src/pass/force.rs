@@ -36,7 +36,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    if !(state.method.internal_energy || state.method.dissipated_energy) {
+    if !(state.method.internal_energy || state.method.dissipated_power()) {
         with_kernel!(state.method.smoothing, K => {
             super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a).acceleration);
         });
@@ -50,7 +50,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         if state.method.internal_energy {
             state.particles.internal_power[a] = sum.internal_power;
         }
-        if state.method.dissipated_energy {
+        if state.method.dissipated_power() {
             state.particles.dissipated_power[a] = sum.dissipated_power;
         }
     }
@@ -84,7 +84,7 @@ fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> Sums<S> {
                 force += friction;
             }
             sums.acceleration += force;
-            if method.internal_energy || method.dissipated_energy {
+            if method.internal_energy || method.dissipated_power() {
                 let v_ba = velocity_difference(state, a, &pair);
                 sums.internal_power += half * S::inner(v_ba, force);
                 sums.dissipated_power += half * S::inner(v_ba, friction);
