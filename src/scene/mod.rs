@@ -4,6 +4,7 @@ mod carve;
 mod check;
 mod clip;
 pub mod corrected_kernel;
+pub mod facets;
 pub mod file;
 mod motion;
 mod neighbors;

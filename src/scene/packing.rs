@@ -152,7 +152,7 @@ fn rings(shape: &Shape, spacing: f64) -> Result<Vec<Point>, String> {
 }
 
 /// Position in the plane (m) and area (m2) of each sector of the bands from `inner` to `outer`.
-fn sectors(inner: f64, outer: f64, spacing: f64) -> Vec<(f64, f64, f64)> {
+pub(super) fn sectors(inner: f64, outer: f64, spacing: f64) -> Vec<(f64, f64, f64)> {
     let solid = inner == 0.0;
     let middle = if solid { 0.5 } else { 0.0 };
     let bands = ((outer - inner) / spacing - middle).round();
