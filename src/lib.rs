@@ -38,6 +38,7 @@ pub mod cli;
 pub mod contact;
 pub mod material;
 pub mod observable;
+pub mod obstacle;
 pub mod output;
 pub mod pair;
 pub mod particles;

@@ -28,7 +28,7 @@ macro_rules! library {
 
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, density, descent,
-        displacement_difference, inverse, invocation, kernel, linear_gradient, mass, mirror, moving_velocity, pair,
+        displacement_difference, inverse, invocation, kernel, linear_gradient, mass, mirror, moving_velocity, obstacle, pair,
         pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
