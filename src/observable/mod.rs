@@ -6,11 +6,13 @@
 mod deformation;
 mod energy;
 mod force;
+mod indentation;
 mod moment;
 mod momentum;
 mod neighborhood;
 mod oscillation;
 mod point;
+mod power_law;
 mod probe;
 mod profile;
 mod result;
@@ -32,7 +34,7 @@ pub struct Kind {
     /// Word in a scene.
     pub word: &'static str,
     pub about: &'static str,
-    /// Keys of `[observe.NAME]` that it cannot do without.
+    /// Keys of `[observe.NAME]` that it cannot do without; one of those that `|` parts.
     pub needs: &'static [&'static str],
     /// Fields that it reads in the Eulerian formulation; those that a run has no counterpart of are refused.
     pub fields: &'static [Field],
@@ -88,6 +90,12 @@ pub static KINDS: &[Kind] = &[
     result::RATIO,
     result::RMS,
     result::SOUTHWELL,
+    indentation::UNLOADING_STIFFNESS,
+    indentation::CONTACT_DEPTH,
+    indentation::HARDNESS,
+    indentation::REDUCED_MODULUS,
+    indentation::WORK,
+    indentation::VALUE_AT,
     oscillation::PERIOD,
     oscillation::FREQUENCY,
     oscillation::SWING_PERIOD,
@@ -151,9 +159,12 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
             "over" => typed.over.is_some(),
             "between" => typed.between.is_some(),
             "at" => typed.at.is_some(),
+            "level" => typed.level.is_some(),
+            "radius|section" => typed.radius.is_some() != typed.section.is_some(),
             _ => true,
         };
         if !given {
+            let key = key.replace('|', "` or `");
             return Err(format!("is a {}: it needs the key `{key}`", kind.word));
         }
     }

@@ -31,8 +31,12 @@ impl Table {
         Ok(rows)
     }
 
-    fn of(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+    pub(super) fn of(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
         self.window(typed.of.as_deref().unwrap_or_default(), typed)
+    }
+
+    pub(super) fn over(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
+        self.window(typed.over.as_deref().unwrap_or_default(), typed)
     }
 }
 
@@ -88,7 +92,7 @@ pub const RATIO: Kind = Kind {
     fields: &[],
     value: Value::Result(|table, typed| {
         let last = |rows: Vec<(f64, f64)>| rows[rows.len() - 1].1;
-        Ok(last(table.of(typed)?) / last(table.window(typed.over.as_deref().unwrap_or_default(), typed)?))
+        Ok(last(table.of(typed)?) / last(table.over(typed)?))
     }),
 };
 
@@ -105,7 +109,7 @@ pub const RMS: Kind = Kind {
 
 /// Slope of deflection against deflection over load by least squares: Southwell 1932.
 fn southwell(table: &Table, typed: &Observe) -> Result<f64, String> {
-    let loads = table.window(typed.over.as_deref().unwrap_or_default(), typed)?;
+    let loads = table.over(typed)?;
     let pairs = table.of(typed)?.into_iter().zip(loads).filter(|(_, load)| load.1 != 0.0);
     let rows: Vec<(f64, f64)> = pairs.map(|(deflection, load)| (deflection.1.abs(), (deflection.1 / load.1).abs())).collect();
     if rows.len() < 3 {

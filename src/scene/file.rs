@@ -552,10 +552,19 @@ pub struct Observe {
     pub over: Option<String>,
     /// Times between which it is found.
     pub between: Option<[f64; 2]>,
-    /// Distance in spacings, speed, or whatever the kind takes.
+    /// Distance in spacings, speed, depth at which an indenter first touches, or whatever the kind takes.
     pub distance: Option<f64>,
-    /// Value whose crossings make a period.
+    /// Value whose crossings make a period, or that another series must reach; share of load over stiffness by which a
+    /// surface sinks outside a contact, 0.75 unless given.
     pub level: Option<f64>,
+    /// Radius of a ball that indents.
+    pub radius: Option<f64>,
+    /// Cross-section of a pointed indenter at distance 1 from its apex, 24.5 for Berkovich's.
+    pub section: Option<f64>,
+    /// Loads, over the largest, between which unloading is fitted; 0.5 and 0.95 unless given.
+    pub shares: Option<[f64; 2]>,
+    /// Correction of the reduced modulus for an indenter that is not round; 1 unless given.
+    pub beta: Option<f64>,
 }
 
 /// What must come out.
