@@ -154,6 +154,7 @@ fn boundaries_contacts_and_boxes() {
 fn observables_and_expectations() {
     let observe = |text: &str| format!("[observe.new]\n{text}\n\n{END}");
     let expect = |text: &str| format!("[expect.kinetic]\n{text}\n\n{END}");
+    let indent = |kind: &str, keys: &str| observe(&format!("kind = \"{kind}\"\nof = \"kinetic\"\nover = \"kinetic\"\n{keys}"));
     let misnamed = format!("[expect.kinetc]\nvalue = 1\ntolerance = 1\nsource = \"x\"\n\n{END}");
     let comma = format!("[observe.\"a,b\"]\nkind = \"kinetic_energy\"\n\n{END}");
     bad_scenes(
@@ -168,6 +169,11 @@ fn observables_and_expectations() {
             (END, &observe("kind = \"momentum\"\naxis = \"w\""), "[observe.new]", &["axis `w`", "x, y, z"]),
             (END, &observe("kind = \"kinetic_energy\"\nbody = \"lef\""), "[observe.new]", &["no body", "did you mean `left`?"]),
             (END, &observe("kind = \"rms\"\nof = \"kinetik\""), "[observe.new]", &["`kinetik`", "did you mean `kinetic`?"]),
+            (END, &indent("value_at", ""), "[observe.new]", &["is a value_at", "needs the key `level`"]),
+            (END, &indent("hardness", ""), "[observe.new]", &["is a hardness", "needs the key `radius` or `section`"]),
+            (END, &indent("hardness", "radius = 1\nsection = 24.5"), "[observe.new]", &["`radius` or `section`, not both"]),
+            (END, &indent("hardness", "radius = -1"), "[observe.new]", &["radius -1", "above 0"]),
+            (END, &indent("contact_depth", "shares = [0.5, 5]"), "[observe.new]", &["shares 0.5 and 5", "from 0 to 1"]),
             (END, &comma, "[observe.\"a,b\"]", &["`a,b`", "letters"]),
             (END, &misnamed, "[expect.kinetc]", &["names no observable", "did you mean `kinetic`?"]),
             (END, &expect("value = 1\ntolerance = 1"), "[expect", &["needs a source"]),

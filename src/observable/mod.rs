@@ -18,6 +18,7 @@ mod profile;
 mod result;
 mod rotation;
 mod trace;
+mod zone;
 
 pub use moment::{Moment, fields_of_path};
 pub use profile::profile;
@@ -82,6 +83,7 @@ pub static KINDS: &[Kind] = &[
     probe::MEAN,
     probe::LARGEST,
     probe::SMALLEST,
+    zone::ZONE,
     neighborhood::PIECES,
     neighborhood::DISTANCE,
     neighborhood::DISORDER,
@@ -115,8 +117,8 @@ pub fn observers(scene: &Scene) -> Vec<Observer> {
     let resolve = |(name, typed): (&String, &Observe)| {
         let kind = KINDS.iter().find(|kind| kind.word == typed.kind)?;
         let particles = match &typed.at {
-            Some(at) => vec![scene.nearest(at.vector())],
-            None => scene.select(typed.body.as_deref(), typed.inside.as_ref()),
+            Some(at) if kind.word != zone::ZONE.word => vec![scene.nearest(at.vector())],
+            _ => scene.select(typed.body.as_deref(), typed.inside.as_ref()),
         };
         Some(Observer { name: name.clone(), typed: typed.clone(), kind, particles, axis: axis_index(typed.axis.as_deref()) })
     };
@@ -164,8 +166,8 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
             _ => true,
         };
         if !given {
-            let key = key.replace('|', "` or `");
-            return Err(format!("is a {}: it needs the key `{key}`", kind.word));
+            let (key, both) = (key.replace('|', "` or `"), if key.contains('|') { ", not both" } else { "" });
+            return Err(format!("is a {}: it needs the key `{key}`{both}", kind.word));
         }
     }
     for other in [&typed.of, &typed.over].into_iter().flatten() {
@@ -188,6 +190,7 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     if scene.select(typed.body.as_deref(), typed.inside.as_ref()).is_empty() {
         return Err("selects no particle".into());
     }
+    check_numbers(typed)?;
     let present = crate::step::fields(&scene.method);
     if let Some(missing) = moment::needed(scene, kind.fields).iter().find(|field| !present.contains(field)) {
         return Err(format!("needs the field {}, which this scene does not name", missing.name()));
@@ -196,6 +199,23 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
         moment::check_path(scene, path)?;
     }
     Ok(())
+}
+
+/// What an indentation is read by.
+fn check_numbers(typed: &Observe) -> Result<(), String> {
+    for (key, number) in [("radius", typed.radius), ("section", typed.section), ("beta", typed.beta)] {
+        if let Some(number) = number
+            && !(number.is_finite() && number > 0.0)
+        {
+            return Err(format!("has the {key} {number}; expected a number above 0"));
+        }
+    }
+    match typed.shares {
+        Some([a, b]) if a == b || [a, b].iter().any(|share| !(0.0..=1.0).contains(share)) => {
+            Err(format!("has the shares {a} and {b}; expected two different ones from 0 to 1"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) -> Result<(), String> {
