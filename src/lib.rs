@@ -36,6 +36,7 @@ pub mod bond;
 pub mod check;
 pub mod cli;
 pub mod contact;
+pub mod facet;
 pub mod material;
 pub mod observable;
 pub mod obstacle;

@@ -17,6 +17,34 @@ pub enum Type {
     Tri,
 }
 
+/// What a field has a row for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Set {
+    Particle,
+    /// A piece of a body's surface, carried by a particle: names begin with `facet_`.
+    Facet,
+    /// A rigid obstacle: names begin with `obstacle_`.
+    Obstacle,
+}
+
+/// Rows of each set.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    pub particles: usize,
+    pub facets: usize,
+    pub obstacles: usize,
+}
+
+impl Counts {
+    pub fn of(&self, set: Set) -> usize {
+        match set {
+            Set::Particle => self.particles,
+            Set::Facet => self.facets,
+            Set::Obstacle => self.obstacles,
+        }
+    }
+}
+
 /// How the unit of a field is made of length, mass and time: exponents in that order.
 pub type Unit = [i8; 3];
 
@@ -50,6 +78,11 @@ macro_rules! fields {
             pub fn about(self) -> &'static str {
                 match self { $(Field::$Variant => $about),* }
             }
+            pub fn set(self) -> Set {
+                let name = self.name();
+                let named = |prefix| name.starts_with(prefix);
+                if named("facet_") { Set::Facet } else if named("obstacle_") { Set::Obstacle } else { Set::Particle }
+            }
             /// Part of the state: reordered with the particles and kept in a checkpoint. The others are
             /// made anew from the state before they are read.
             pub fn carried(self) -> bool {
@@ -73,14 +106,14 @@ macro_rules! fields {
         }
 
         impl<S: Space> Particles<S> {
-            /// Columns of `count` zeros for each of the fields.
-            pub fn allocate(count: usize, fields: &[Field]) -> Self {
-                let length = |field| if fields.contains(&field) { count } else { 0 };
+            /// Columns of zeros for each of the fields.
+            pub fn allocate(counts: Counts, fields: &[Field]) -> Self {
+                let length = |field: Field| if fields.contains(&field) { counts.of(field.set()) } else { 0 };
                 Self { $($name: vec![Default::default(); length(Field::$Variant)]),* }
             }
-            /// Puts particle `order[k]` at place k in every carried column.
+            /// Puts particle `order[k]` at place k in every carried column of particles.
             pub fn reorder(&mut self, order: &[u32]) {
-                $(if $carried && !self.$name.is_empty() {
+                $(if $carried && Field::$Variant.set() == Set::Particle && !self.$name.is_empty() {
                     self.$name = order.iter().map(|&k| self.$name[k as usize]).collect();
                 })*
             }
@@ -110,6 +143,8 @@ const ACCELERATION: Unit = [1, 0, -2];
 const RATE: Unit = [0, 0, -1];
 const STRESS: Unit = [-1, 1, -2];
 const STRESS_RATE: Unit = [-1, 1, -3];
+const FORCE: Unit = [1, 1, -2];
+const ENERGY: Unit = [2, 1, -2];
 const SPECIFIC_STRESS: Unit = [5, -1, -2];
 const SPECIFIC_ENERGY: Unit = [2, 0, -2];
 const SPECIFIC_POWER: Unit = [2, 0, -3];
@@ -174,6 +209,34 @@ fields! {
     kept_count: KeptCount, Integer, NONE, false, "number of the particle's neighbours in the reference configuration";
     contact_count: ContactCount, Integer, NONE, false, "number of entries in the particle's list of contacts";
     contact_energy: ContactEnergy, Real, [2, 1, -2], false, "the particle's half of the energy of its contacts";
+    first_facet: FirstFacet, Integer, NONE, true, "index of the first piece of surface that the particle carries";
+    facets: Facets, Integer, NONE, true, "number of the pieces of surface that the particle carries";
+    facet_owner: FacetOwner, Integer, NONE, false, "index of the particle that carries the facet";
+    facet_reference_position: FacetReferencePosition, Vec, LENGTH, false, "the facet's point when the scene was packed";
+    facet_reference_normal: FacetReferenceNormal, Vec, NONE, false, "the facet's outward normal when the scene was packed";
+    facet_area: FacetArea, Real, [2, 0, 0], false, "the facet's area when the scene was packed (length in 2D, 1 in 1D)";
+    facet_displacement: FacetDisplacement, Vec, LENGTH, true, "displacement of the facet's point";
+    facet_move: FacetMove, Vec, LENGTH, false, "what the facet's displacement grew by in this step";
+    facet_normal: FacetNormal, Vec, NONE, false, "the facet's present outward normal";
+    facet_contact_count: FacetContactCount, Integer, NONE, false, "number of entries in the facet's list of facets that it may touch";
+    facet_gap: FacetGap, Real, LENGTH, false, "smoothed distance to the other surface along its normals";
+    facet_spread: FacetSpread, Real, NONE, false, "one over the sum of the weights of that surface's facets, 0 where it is out of touch";
+    facet_pull: FacetPull, Real, FORCE, false, "derivative of the facet's energy by its gap, over the sum of the weights";
+    facet_edge: FacetEdge, Real, ENERGY, false, "derivative of the facet's energy by the sum of the weights at a fixed gap";
+    facet_slip: FacetSlip, Vec, LENGTH, true, "elastic slip of the facet on another body's surface";
+    facet_traction: FacetTraction, Vec, FORCE, false, "friction of another body's surface on the facet";
+    facet_force: FacetForce, Vec, FORCE, false, "force of contact on the facet";
+    facet_moment: FacetMoment, Mat, ENERGY, false, "derivative of the energy of contact by the deformation gradient of the facet's particle";
+    facet_pressure: FacetPressure, Real, STRESS, false, "pressure of contact on the facet";
+    facet_energy: FacetEnergy, Real, ENERGY, false, "energy of the facet's contact";
+    facet_heat: FacetHeat, Real, ENERGY, false, "heat that the facet's friction made in this step";
+    facet_obstacle_slip: FacetObstacleSlip, Vec, LENGTH, true, "elastic slip of the facet on an obstacle";
+    facet_load: FacetLoad, Vec, FORCE, false, "force of the obstacle that the facet touches most";
+    facet_obstacle: FacetObstacle, Integer, NONE, false, "index of that obstacle, plus 1; 0 for none";
+    obstacle_displacement: ObstacleDisplacement, Vec, LENGTH, true, "displacement of a rigid obstacle";
+    obstacle_move: ObstacleMove, Vec, LENGTH, true, "what the obstacle's displacement grew by in this step";
+    obstacle_velocity: ObstacleVelocity, Vec, VELOCITY, true, "velocity of a rigid obstacle";
+    obstacle_force: ObstacleForce, Vec, FORCE, true, "force of the bodies on a rigid obstacle";
     neighbor_count: NeighborCount, Integer, NONE, false, "number of entries in the particle's neighbour list";
 }
 
@@ -218,7 +281,8 @@ mod tests {
 
     #[test]
     fn only_the_named_fields_take_memory() {
-        let particles = Particles::<Plane<f32>>::allocate(10, &[Field::Velocity, Field::Number]);
+        let particles =
+            Particles::<Plane<f32>>::allocate(Counts { particles: 10, ..Counts::default() }, &[Field::Velocity, Field::Number]);
         assert_eq!(particles.present(), [Field::Number, Field::Velocity]);
         assert_eq!(particles.bytes(Field::Velocity).len(), 80);
     }

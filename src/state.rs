@@ -3,8 +3,10 @@
 
 use crate::bond::BondTable;
 use crate::contact::Potential;
+use crate::facet::{FacetPair, GapForm};
 use crate::material::Law;
-use crate::particles::Particles;
+use crate::obstacle::Obstacle;
+use crate::particles::{Counts, Particles};
 use crate::scene::corrected_kernel::{CorrectedKernel, VelocityGradient};
 use crate::scene::file::{ArtificialForm, Density, Descent, Gradient, Integrator, Kind};
 use crate::smoothing::Smoothing;
@@ -40,6 +42,12 @@ pub struct Method {
     pub bond_table: bool,
     /// How surfaces touch.
     pub contact: Option<Potential>,
+    /// Surfaces keep apart by their facets.
+    pub gap: Option<GapForm>,
+    /// Rigid obstacles stand in the way.
+    pub obstacles: bool,
+    /// Facets rub.
+    pub friction: bool,
     pub viscosity: bool,
     pub xsph: bool,
     pub velocity_filter: bool,
@@ -61,7 +69,11 @@ impl Method {
     }
     /// Some list must follow the particles.
     pub fn listed_again(&self) -> bool {
-        self.list_follows() || self.contact.is_some()
+        self.list_follows() || self.contact.is_some() || self.gap.is_some()
+    }
+    /// Bodies touch by pieces of their surfaces.
+    pub fn facets(&self) -> bool {
+        self.gap.is_some() || self.obstacles
     }
     /// Steps are made of stages.
     pub fn staged(&self) -> bool {
@@ -94,6 +106,12 @@ impl Method {
             ("difference", option(|sums| sums.velocity_gradient == VelocityGradient::Difference)),
             ("hourglass", self.hourglass),
             ("contact", self.contact.is_some()),
+            ("facets", self.facets()),
+            ("gap", self.gap.is_some()),
+            ("along_normals", self.gap == Some(GapForm::AlongNormals)),
+            ("obstacles", self.obstacles),
+            ("friction", self.friction),
+            ("sought", self.quasi_static.is_some()),
             ("listed_again", self.listed_again()),
             ("memory", self.memory()),
             ("shear", eulerian && self.shear),
@@ -142,6 +160,10 @@ pub struct Params<R> {
     pub body_count: u32,
     pub artificial_exponent: u32,
     pub contact_capacity: u32,
+    pub facet_count: u32,
+    /// Entries that a facet's list of contacts can hold.
+    pub facet_capacity: u32,
+    pub obstacle_count: u32,
     /// Always zero; the compiler does not know it.
     pub zero: u32,
     pub origin_x: R,
@@ -163,6 +185,10 @@ pub struct Params<R> {
     pub reach: R,
     /// Distance up to which pairs enter the list of contacts.
     pub contact_reach: R,
+    /// Distance up to which pairs enter the list of facets.
+    pub facet_reach: R,
+    /// Rate that the stiffness of contact by facets adds to that of waves over h, in squares.
+    pub contact_rate: R,
     /// Particles of one body touch only if they were farther apart than this.
     pub contact_apart: R,
     /// Displacement after which the list must be built anew.
@@ -213,6 +239,26 @@ pub struct ContactPair<R> {
     pub strength: R,
     /// Distance at which it ends; 0 where the bodies do not touch.
     pub range: R,
+}
+
+/// What moves a rigid obstacle. Twin: `Mover` in `shaders/lib/params.wgsl`.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct Mover<R> {
+    /// Boundary condition that gives its velocity, plus 1; 0 for none.
+    pub condition: u32,
+    /// 0 where the motion is prescribed.
+    pub inverse_mass: R,
+}
+
+impl<R> Params<R> {
+    /// Blocks of the reduction over facets.
+    pub fn facet_blocks(&self) -> usize {
+        (self.facet_count as usize).div_ceil(REDUCTION_BLOCK)
+    }
+    pub fn counts(&self) -> Counts {
+        Counts { particles: self.count as usize, facets: self.facet_count as usize, obstacles: self.obstacle_count as usize }
+    }
 }
 
 impl ContactPair<f64> {
@@ -349,6 +395,12 @@ pub struct State<S: Space> {
     pub coupling: Vec<S::Real>,
     /// Contact between bodies a and b at `a * body_count + b`.
     pub contact_pairs: Vec<ContactPair<S::Real>>,
+    /// Contact of the surfaces of bodies a and b at `a * body_count + b`.
+    pub facet_pairs: Vec<FacetPair<S::Real>>,
+    pub obstacles: Vec<Obstacle<S::Real>>,
+    pub movers: Vec<Mover<S::Real>>,
+    /// Contact of obstacle k and body b at `k * body_count + b`.
+    pub obstacle_pairs: Vec<FacetPair<S::Real>>,
     pub constraints: Vec<Constraint<S::Real>>,
     /// Time and factor.
     pub course: Vec<[S::Real; 2]>,
@@ -364,6 +416,10 @@ pub struct State<S: Space> {
     pub neighbors: Vec<u32>,
     /// Entry k of particle a's list of contacts at `k * count + a`.
     pub contacts: Vec<u32>,
+    /// Entry k of facet e's list of contacts at `k * facet_count + e`.
+    pub facet_contacts: Vec<u32>,
+    /// Force on obstacle k from block j of the facets at `k * blocks + j`.
+    pub block_load: Vec<S::Vec>,
     /// Neighbours of the reference configuration, kept beside a list that follows the particles: entry k of
     /// particle a at `k * count + a`, and with it V_b times the gradient at a of b's shape function.
     pub kept_neighbors: Vec<u32>,
@@ -419,6 +475,16 @@ impl<S: Space> State<S> {
     #[inline(always)]
     pub fn contact_pair(&self, a: usize, b: usize) -> &ContactPair<S::Real> {
         &self.contact_pairs[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
+    }
+    /// Facets that a particle carries.
+    #[inline(always)]
+    pub fn facets_of(&self, a: usize) -> std::ops::Range<usize> {
+        let first = self.particles.first_facet[a] as usize;
+        first..first + self.particles.facets[a] as usize
+    }
+    #[inline(always)]
+    pub fn facet_pair(&self, a: usize, b: usize) -> &FacetPair<S::Real> {
+        &self.facet_pairs[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
     }
     /// Factor of a boundary condition's course at an absolute time.
     pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {

@@ -35,12 +35,20 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
         return;
     }
     if method.kind == Kind::TotalLagrangian {
-        calls.extend([Pass::Deform, Pass::BondForce].map(call));
+        calls.push(call(Pass::Deform));
+        press_surfaces(method, calls);
+        calls.push(call(Pass::BondForce));
         if method.viscosity {
             calls.push(call(Pass::BondFriction));
         }
         if method.contact.is_some() {
             calls.push(call(Pass::ContactForce));
+        }
+        if method.facets() {
+            calls.push(call(Pass::SurfaceForce));
+        }
+        if method.obstacles {
+            calls.push(call(Pass::LoadObstacles));
         }
         return;
     }
@@ -51,6 +59,19 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
         calls.push(call(Pass::CorrectGradient));
     }
     calls.extend([Pass::SpecificStress, Pass::Force].map(call));
+}
+
+/// Contact of surfaces: what acts on the facets, and what the bonds carry of it.
+fn press_surfaces(method: &Method, calls: &mut Vec<Call>) {
+    let gap = [Pass::PlaceFacets, Pass::MeasureGap, Pass::PressFacets];
+    let obstacles = [Pass::TouchObstacles, Pass::CarryFacets];
+    let (gap, obstacles) = match (method.gap.is_some(), method.obstacles) {
+        (false, false) => return,
+        (true, true) => (&gap[..], &obstacles[..]),
+        (true, false) => (&gap[..], &obstacles[1..]),
+        (false, true) => (&gap[..1], &obstacles[..]),
+    };
+    calls.extend(gap.iter().chain(obstacles).map(|&pass| call(pass)));
 }
 
 /// Particles into cell order, a fresh list.
@@ -75,6 +96,9 @@ pub fn prepare(method: &Method) -> Vec<Call> {
         if method.gradient == Gradient::Quadratic {
             calls.push(call(Pass::CorrectQuadratic));
         }
+        if method.facets() {
+            calls.push(call(Pass::AttachFacets));
+        }
     }
     calls
 }
@@ -88,8 +112,12 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
     if method.kind == Kind::Eulerian {
         order(false, &mut calls);
     }
+    if method.gap.is_some() {
+        calls.push(call(Pass::PlaceFacets));
+    }
     if method.quasi_static.is_some() {
         calls.push(call(Pass::BeginLoad));
+        move_obstacles(method, &mut calls);
         find_contacts(method, &mut calls);
         force(method, &mut calls);
     } else {
@@ -100,9 +128,21 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
 
 /// Lists contacts. Does nothing while the present list holds.
 fn find_contacts(method: &Method, calls: &mut Vec<Call>) {
+    if method.contact.is_none() && method.gap.is_none() {
+        return;
+    }
+    sort(false, calls);
     if method.contact.is_some() {
-        sort(false, calls);
         calls.push(call(Pass::FindContacts));
+    }
+    if method.gap.is_some() {
+        calls.extend([Pass::KeepListed, Pass::FindFacetContacts].map(call));
+    }
+}
+
+fn move_obstacles(method: &Method, calls: &mut Vec<Call>) {
+    if method.obstacles {
+        calls.push(call(Pass::MoveObstacles));
     }
 }
 
@@ -158,6 +198,7 @@ fn leapfrog(method: &Method) -> Vec<Call> {
     }
     if method.kind == Kind::TotalLagrangian {
         calls.push(drift_by(1.0));
+        move_obstacles(method, &mut calls);
         force(method, &mut calls);
         calls.push(at(Pass::Kick, 1.0));
         return calls;
@@ -275,6 +316,14 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (eulerian, &[VolumetricStrain, VelocityGradient]),
         (method.listed_again(), &[ListedDisplacement]),
         (method.contact.is_some(), &[ContactCount, ContactEnergy]),
+        (method.facets(), &[FirstFacet, Field::Facets, FacetOwner, FacetReferencePosition, FacetReferenceNormal, FacetArea]),
+        (method.facets(), &[FacetDisplacement, FacetMove, FacetNormal, FacetForce, FacetMoment, FacetPressure, FacetEnergy]),
+        (method.facets(), &[ContactEnergy]),
+        (method.gap.is_some(), &[FacetContactCount, FacetGap, FacetSpread, FacetPull, FacetEdge]),
+        (method.friction, &[FacetHeat]),
+        (method.friction && method.gap.is_some(), &[FacetSlip, FacetTraction]),
+        (method.friction && method.obstacles, &[FacetObstacleSlip]),
+        (method.obstacles, &[FacetLoad, FacetObstacle, ObstacleDisplacement, ObstacleMove, ObstacleVelocity, ObstacleForce]),
         (method.hourglass, &[HourglassEnergy]),
         (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
         (!eulerian, &[DisplacementGradient]),
@@ -304,6 +353,7 @@ pub fn fields(method: &Method) -> Vec<Field> {
     let own = method.corrected_kernel.map_or_else(Vec::new, |options| corrected_kernel::fields(options, staged));
     let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect();
     list.sort_unstable();
+    list.dedup();
     list
 }
 

@@ -307,6 +307,14 @@ pub trait Space: Copy + Send + Sync + 'static {
     /// Transposed matrix of cofactors: the inverse times the determinant.
     fn adjugate(m: Self::Mat) -> Self::Mat;
 
+    /// The first components of three.
+    fn vec_of_reals(components: [Self::Real; 3]) -> Self::Vec {
+        let mut v = Self::Vec::default();
+        for (k, component) in components.into_iter().enumerate().take(Self::DIMENSION) {
+            v[k] = component;
+        }
+        v
+    }
     fn vec_from(components: [f64; 3]) -> Self::Vec {
         let mut v = Self::Vec::default();
         for k in 0..Self::DIMENSION {

@@ -1,9 +1,10 @@
 //! The host's structures against their twins in `shaders/lib/params.wgsl`: same members, same offsets, same size.
 
 use lithosph::backend::shader::{compose, offsets};
+use lithosph::facet::FacetPair;
 use lithosph::pass::Pass;
 use lithosph::scene::Scene;
-use lithosph::state::{Balance, Body, Clock, Constraint, Method, Params};
+use lithosph::state::{Balance, Body, Clock, Constraint, Method, Mover, Params};
 use std::mem::offset_of;
 
 /// The text of a pass that uses every structure.
@@ -36,8 +37,8 @@ macro_rules! assert_mirrors {
 fn params_mirror_the_shader_s() {
     assert_mirrors!(Params:
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-        artificial_exponent, contact_capacity, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
-        body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
+        artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
+        body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, facet_reach, contact_rate, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
         artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate,
     );
     // Bound alone, in a buffer rounded up to the alignment of a vec4.
@@ -55,6 +56,12 @@ fn bodies_mirror_the_shader_s() {
 fn constraints_mirror_the_shader_s() {
     assert_mirrors!(Constraint: prescribed, course_first, course_count, padding, x, y, z, unused);
     assert_eq!(size_of::<Constraint<f32>>(), span("Constraint") as usize);
+}
+
+#[test]
+fn contacts_of_surfaces_mirror_the_shader_s() {
+    assert_mirrors!(FacetPair: stiffness, range, full, friction);
+    assert_mirrors!(Mover: condition, inverse_mass);
 }
 
 #[test]

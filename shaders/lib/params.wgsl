@@ -16,6 +16,9 @@ struct Params {
     body_count: u32,
     artificial_exponent: u32,
     contact_capacity: u32,
+    facet_count: u32,
+    facet_capacity: u32,
+    obstacle_count: u32,
     zero: u32,
     origin_x: real,
     origin_y: real,
@@ -32,6 +35,8 @@ struct Params {
     normalisation: real,
     reach: real,
     contact_reach: real,
+    facet_reach: real,
+    contact_rate: real,
     contact_apart: real,
     slack: real,
     hourglass: real,
@@ -62,6 +67,18 @@ struct Body {
 struct ContactPair {
     strength: real,
     range: real,
+}
+
+struct FacetPair {
+    stiffness: real,
+    range: real,
+    full: real,
+    friction: real,
+}
+
+struct Mover {
+    condition: u32,
+    inverse_mass: real,
 }
 
 struct Constraint {

@@ -73,7 +73,10 @@ fn measure_of(a: u32) -> Measure {
         fault = real(NOT_FINITE);
     }
     let sum = vec4<real>(inner(pull, velocity[a]), square, motion, 0.0) * weight;
-    let rate = own.sound_speed / own.smoothing_length;
+    var rate = own.sound_speed / own.smoothing_length;
+#if facets
+    rate = sqrt(rate * rate + params.contact_rate);
+#endif
     return Measure(sum, vec4<real>(weight * sqrt(square), force_scale(a, gradient), rate, fault));
 }
 

@@ -68,7 +68,10 @@ fn bound_of(a: u32) -> vec4<real> {
 #endif
     let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
     let pull = inner(acceleration[a], acceleration[a]);
-    let rate = max(signal / h, sqrt(sqrt(pull) / h));
+    var rate = max(signal / h, sqrt(sqrt(pull) / h));
+#if facets
+    rate = sqrt(rate * rate + params.contact_rate);
+#endif
 #if listed_again
     let shift = displacement[a] - listed_displacement[a];
     let moved = inner(shift, shift);

@@ -27,9 +27,10 @@ macro_rules! library {
 }
 
 library! {
-    lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, density, descent,
-        displacement_difference, inverse, invocation, kernel, linear_gradient, mass, mirror, moving_velocity, obstacle, pair,
-        pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d,
+    lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
+        descent, displacement_difference, facet, facet_lever, facet_pair, half_kick, inverse, invocation, kernel,
+        linear_gradient, mass, mirror, moving_velocity, obstacle, pair,
+        pair_velocity, params, real, separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;
     material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
 }
@@ -50,6 +51,12 @@ const FLAGS: &[&str] = &[
     "difference",
     "hourglass",
     "contact",
+    "facets",
+    "gap",
+    "along_normals",
+    "obstacles",
+    "friction",
+    "sought",
     "listed_again",
     "memory",
     "shear",

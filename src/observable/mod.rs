@@ -10,6 +10,7 @@ mod indentation;
 mod moment;
 mod momentum;
 mod neighborhood;
+mod obstacle;
 mod oscillation;
 mod point;
 mod power_law;
@@ -78,6 +79,10 @@ pub static KINDS: &[Kind] = &[
     momentum::POSITION,
     rotation::ANGLE,
     force::FORCE,
+    obstacle::FORCE,
+    obstacle::DISPLACEMENT,
+    obstacle::VELOCITY,
+    obstacle::AREA,
     probe::PROBE,
     point::POINT,
     probe::MEAN,
@@ -88,7 +93,10 @@ pub static KINDS: &[Kind] = &[
     neighborhood::DISTANCE,
     neighborhood::DISORDER,
     result::RESTITUTION,
+    result::CONTACT_TIME,
     result::GROWTH_RATE,
+    result::SLOPE,
+    result::RATIO_OF_MEANS,
     result::RATIO,
     result::RMS,
     result::SOUTHWELL,
@@ -163,6 +171,7 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
             "at" => typed.at.is_some(),
             "level" => typed.level.is_some(),
             "radius|section" => typed.radius.is_some() != typed.section.is_some(),
+            "obstacle" => typed.obstacle.is_some(),
             _ => true,
         };
         if !given {
@@ -186,6 +195,12 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     {
         let bodies: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
         return Err(format!("is taken over `{body}`, which is no body{}", hint(body, &bodies)));
+    }
+    if let Some(word) = &typed.obstacle
+        && !scene.obstacles.iter().any(|obstacle| &obstacle.name == word)
+    {
+        let names: Vec<&str> = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect();
+        return Err(format!("belongs to `{word}`, which is no obstacle{}", hint(word, &names)));
     }
     if scene.select(typed.body.as_deref(), typed.inside.as_ref()).is_empty() {
         return Err("selects no particle".into());
@@ -270,6 +285,9 @@ pub fn fields_read(observers: &[Observer], scene: &Scene) -> Vec<Field> {
     let mut list = vec![Field::Number];
     for observer in observers {
         list.extend(moment::read(scene, observer.kind.fields));
+        if observer.kind.word == obstacle::AREA.word && observer.typed.obstacle.is_some() {
+            list.push(Field::FacetObstacle);
+        }
         if let Some(path) = &observer.typed.field {
             list.extend(moment::fields_of_path(scene, path));
         }

@@ -4,7 +4,7 @@ use super::deformation::Deformation;
 use crate::backend::Columns;
 use crate::material;
 use crate::output::{Column, Snapshot};
-use crate::particles::{Field, Type, unit_text};
+use crate::particles::{Field, Set, Type, unit_text};
 use crate::scene::Scene;
 use crate::scene::file::Units;
 use crate::scene::read::hint;
@@ -109,7 +109,12 @@ impl<'a> Moment<'a> {
     /// Sorts what a backend fetched; it must contain the particle numbers.
     pub fn new(scene: &'a Scene, time: f64, step: u64, fetched: &Columns) -> Self {
         let numbers = &fetched[&Field::Number];
-        let columns = fetched.iter().map(|(&field, column)| (field, sorted(column, numbers))).collect();
+        // Facets and obstacles never change their order.
+        let ordered = |field: Field, column: &[f64]| match field.set() {
+            Set::Particle => sorted(column, numbers),
+            Set::Facet | Set::Obstacle => column.to_vec(),
+        };
+        let columns = fetched.iter().map(|(&field, column)| (field, ordered(field, column))).collect();
         Self { scene, time, step, columns }
     }
 

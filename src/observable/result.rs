@@ -57,17 +57,67 @@ fn restitution(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(-relative(table, typed, tail)? / before)
 }
 
-/// Slope of ln(value) against time by least squares.
-fn growth_rate(table: &Table, typed: &Observe) -> Result<f64, String> {
-    let rows: Vec<(f64, f64)> = table.of(typed)?.into_iter().filter(|r| r.1 > 0.0).map(|(t, v)| (t, v.ln())).collect();
+/// Part of the speed that counts as not yet touched, and as touched no more.
+const TOUCHED: f64 = 0.9;
+
+/// From where a speed has fallen to 0.9 of its first value to where it has reached 0.9 of its last one, turned back.
+fn contact_time(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let rows = table.of(typed)?;
+    let (first, last) = (rows[0].1, -restitution(table, &Observe { over: None, ..typed.clone() })? * rows[0].1);
+    let when = |level: f64| {
+        let passes =
+            |pair: &&[(f64, f64)]| (pair[0].1 - level) * first.signum() > 0.0 && (pair[1].1 - level) * first.signum() <= 0.0;
+        let pair = rows.windows(2).find(passes).ok_or_else(|| format!("the speed never passes {level:e}"))?;
+        let share = (pair[0].1 - level) / (pair[0].1 - pair[1].1);
+        Ok::<f64, String>(pair[0].0 + (pair[1].0 - pair[0].0) * share)
+    };
+    Ok(when(TOUCHED * last)? - when(TOUCHED * first)?)
+}
+
+/// Slope of a series against time by least squares.
+fn slope(rows: &[(f64, f64)]) -> Result<f64, String> {
     if rows.len() < 3 {
-        return Err("a growth rate needs at least three rows".into());
+        return Err("a slope needs at least three rows".into());
     }
     let n = rows.len() as f64;
     let (t, y) = (rows.iter().map(|r| r.0).sum::<f64>() / n, rows.iter().map(|r| r.1).sum::<f64>() / n);
     let (up, down) = rows.iter().fold((0.0, 0.0), |(u, d), r| (u + (r.0 - t) * (r.1 - y), d + (r.0 - t).powi(2)));
     Ok(up / down)
 }
+
+fn growth_rate(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let rows: Vec<(f64, f64)> = table.of(typed)?.into_iter().filter(|r| r.1 > 0.0).map(|(t, v)| (t, v.ln())).collect();
+    slope(&rows)
+}
+
+fn ratio_of_means(table: &Table, typed: &Observe) -> Result<f64, String> {
+    let mean = |rows: Vec<(f64, f64)>| rows.iter().map(|r| r.1).sum::<f64>() / rows.len() as f64;
+    Ok(mean(table.of(typed)?) / mean(table.over(typed)?))
+}
+
+pub const CONTACT_TIME: Kind = Kind {
+    word: "contact_time",
+    about: "time from where series `of`, a speed, has fallen to 0.9 of its first value to 0.9 of its last, turned back",
+    needs: &["of"],
+    fields: &[],
+    value: Value::Result(contact_time),
+};
+
+pub const SLOPE: Kind = Kind {
+    word: "slope",
+    about: "slope of series `of` within the times `between`, by least squares",
+    needs: &["of", "between"],
+    fields: &[],
+    value: Value::Result(|table, typed| slope(&table.of(typed)?)),
+};
+
+pub const RATIO_OF_MEANS: Kind = Kind {
+    word: "ratio_of_means",
+    about: "mean of series `of` over that of series `over`, within the times `between`",
+    needs: &["of", "over"],
+    fields: &[],
+    value: Value::Result(ratio_of_means),
+};
 
 pub const RESTITUTION: Kind = Kind {
     word: "restitution",

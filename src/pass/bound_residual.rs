@@ -53,7 +53,10 @@ fn measure<S: Space>(state: &State<S>, a: usize) -> Measure<S::Real> {
     } else {
         zero
     };
-    let rate = body.sound_speed / body.smoothing_length;
+    let mut rate = body.sound_speed / body.smoothing_length;
+    if state.method.facets() {
+        rate = (rate * rate + state.params.contact_rate).sqrt();
+    }
     [power, mass * square, motion, zero, mass * square.sqrt(), force_scale(state, a), rate, fault]
 }
 

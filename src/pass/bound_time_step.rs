@@ -36,7 +36,10 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let compression = if finite_strain { zero } else { S::trace(particles.velocity_gradient[a]).abs() };
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
     let pull = S::inner(particles.acceleration[a], particles.acceleration[a]);
-    let rate = (signal / h).max((pull.sqrt() / h).sqrt());
+    let mut rate = (signal / h).max((pull.sqrt() / h).sqrt());
+    if state.method.facets() {
+        rate = (rate * rate + params.contact_rate).sqrt();
+    }
     let moved = particles.listed_displacement.get(a).map_or(S::Vec::default(), |listed| particles.displacement[a] - *listed);
     let (moved, speed) = (S::inner(moved, moved), S::inner(particles.velocity[a], particles.velocity[a]));
     let volume = if finite_strain {

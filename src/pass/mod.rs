@@ -3,12 +3,14 @@
 //! A pass writes only to particle (or cell, or block) i. Twins have the shape of their shader without its
 //! machinery: the loop over i is [`write`], which runs on all cores.
 
+mod attach_facets;
 mod begin_load;
 mod bin_cells;
 mod bond_force;
 mod bond_friction;
 mod bound_residual;
 mod bound_time_step;
+mod carry_facets;
 mod contact_force;
 mod correct_gradient;
 mod correct_quadratic;
@@ -21,11 +23,18 @@ mod evolve_deformation;
 mod fill_cells;
 mod filter_velocity;
 mod find_contacts;
+mod find_facet_contacts;
 mod find_neighbors;
 mod force;
 mod hourglass_energy;
 mod keep_gradients;
+mod keep_listed;
 mod kick;
+mod load_obstacles;
+mod measure_gap;
+mod move_obstacles;
+mod place_facets;
+mod press_facets;
 mod reorder;
 mod runge_kutta;
 mod scan_cells;
@@ -39,6 +48,8 @@ mod strain_rate;
 mod stress;
 mod stress_rate;
 mod sum_density;
+mod surface_force;
+mod touch_obstacles;
 
 pub use bound_residual::{force_scale, unbalanced};
 
@@ -53,6 +64,10 @@ pub enum Domain {
     Particles,
     /// The same, but the pass binds the neighbour list, and so is dispatched for each of its parts.
     Listed,
+    /// One invocation a facet.
+    Facets,
+    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] facets.
+    FacetBlocks,
     /// One invocation a cell.
     Cells,
     /// One workgroup of 256 for each [`crate::state::SCAN_BLOCK`] cells.
@@ -179,6 +194,17 @@ passes! {
     shape_force: ShapeForce, [main: Listed], "acceleration by the shape functions' gradients, Shutov & Klyuchantsev (5)";
     find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";
     contact_force: ContactForce, [main: Particles], "adds the acceleration by contact";
+    attach_facets: AttachFacets, [main: Particles], "tells each facet the particle that carries it";
+    keep_listed: KeepListed, [main: Particles], "keeps the displacements at which the list of facets is made";
+    find_facet_contacts: FindFacetContacts, [main: Facets], "lists the facets that each facet may touch";
+    move_obstacles: MoveObstacles, [main: One], "moves rigid obstacles to the end of the step";
+    place_facets: PlaceFacets, [main: Facets], "moves facets with their particles";
+    measure_gap: MeasureGap, [main: Facets], "smoothed distance of each facet from the surface that faces it, and friction";
+    press_facets: PressFacets, [main: Facets], "force of other bodies' surfaces on each facet";
+    touch_obstacles: TouchObstacles, [main: Facets], "force of rigid obstacles on each facet";
+    carry_facets: CarryFacets, [main: Particles], "adds to what the bonds carry the stress that the facets' levers make";
+    surface_force: SurfaceForce, [main: Particles], "adds the acceleration by the facets that a particle carries";
+    load_obstacles: LoadObstacles, [blocks: FacetBlocks, total: One], "sums the force on each rigid obstacle";
     smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";
     filter_velocity: FilterVelocity, [main: Particles], "puts the smoothed velocity in the velocity's place";
     kick: Kick, [main: Particles], "advances the velocity by a part of the step";

@@ -3,10 +3,12 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
+use super::copies::Copies;
 use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use crate::contact::Potential;
+use crate::facet::GapForm;
 use crate::material::Law;
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
@@ -36,6 +38,8 @@ pub struct File {
     pub formulation: Formulation,
     #[serde(default)]
     pub contact: Vec<Contact>,
+    #[serde(default)]
+    pub obstacle: Vec<Obstacle>,
     #[serde(default)]
     pub boundary: Vec<Boundary>,
     #[serde(default)]
@@ -95,6 +99,11 @@ pub enum Units {
 #[serde(deny_unknown_fields)]
 pub struct Body {
     pub name: String,
+    /// Name that copies share.
+    #[serde(skip)]
+    pub group: Option<String>,
+    /// More bodies of the same kind, on a grid.
+    pub copies: Option<Copies>,
     pub shape: Shape,
     #[serde(default)]
     pub packing: Packing,
@@ -360,6 +369,76 @@ pub struct Contact {
     pub kernel: Option<f64>,
     /// Repulsion of particles that come close; a body may be named twice, to touch itself.
     pub potential: Option<PairPotential>,
+    /// Surfaces keep apart by their facets.
+    pub gap: Option<SurfaceGap>,
+}
+
+/// Energy of facets that are in another body's surface: see `src/facet.rs`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceGap {
+    #[serde(default)]
+    pub form: GapForm,
+    /// Pressure over depth, over Young's modulus over the spacing.
+    #[serde(default = "default_stiffness")]
+    pub stiffness: f64,
+    /// Distance over which the other surface is smoothed, in spacings.
+    #[serde(default = "default_range")]
+    pub range: f64,
+    /// Coefficient of friction.
+    #[serde(default)]
+    pub friction: f64,
+}
+
+fn default_stiffness() -> f64 {
+    2.0
+}
+
+fn default_range() -> f64 {
+    2.0
+}
+
+/// What an obstacle fills; `axis` points from the apex into the obstacle.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ObstacleShape {
+    /// The half space behind a plane with an outward normal.
+    Plane { point: Coordinates, normal: Coordinates },
+    /// A disc in 2D.
+    Sphere { center: Coordinates, radius: f64 },
+    /// 3D: round, without ends.
+    Cylinder { center: Coordinates, axis: Coordinates, radius: f64 },
+    /// A wedge in 2D; half angle in degrees.
+    Cone { apex: Coordinates, axis: Coordinates, half_angle: f64 },
+    /// 3D: three faces at 65.27 degrees from the axis; `turn` (degrees) about it.
+    Berkovich {
+        apex: Coordinates,
+        axis: Coordinates,
+        #[serde(default)]
+        turn: f64,
+    },
+}
+
+/// A rigid surface that bodies cannot enter.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    pub name: String,
+    pub shape: ObstacleShape,
+    /// Velocity: at the start if it has a mass, else prescribed; at rest unless given.
+    pub velocity: Option<Coordinates>,
+    /// Times and factors of a prescribed velocity, linear between, constant outside.
+    pub course: Option<Vec<[f64; 2]>>,
+    /// Makes it move as the bodies push it. It does not turn.
+    pub mass: Option<f64>,
+    /// Pressure over depth, over Young's modulus over the spacing of the body that it touches.
+    #[serde(default = "default_stiffness")]
+    pub stiffness: f64,
+    /// Coefficient of friction.
+    #[serde(default)]
+    pub friction: f64,
+    /// Bodies that it touches; all unless given.
+    pub against: Option<Vec<String>>,
 }
 
 /// U = strength phi(r/range) for each pair of particles.
@@ -536,6 +615,8 @@ pub struct Observe {
     pub kind: String,
     /// Body that the number is taken over; all bodies unless given.
     pub body: Option<String>,
+    /// Obstacle that the number belongs to.
+    pub obstacle: Option<String>,
     /// Shape that the particles lie in at the start.
     pub inside: Option<Shape>,
     /// Field by path: "velocity.x", "stress.yy", "pressure" …

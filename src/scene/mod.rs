@@ -3,6 +3,7 @@
 mod carve;
 mod check;
 mod clip;
+mod copies;
 pub mod corrected_kernel;
 pub mod facets;
 pub mod file;
@@ -15,9 +16,12 @@ mod resolve;
 mod section;
 pub mod shape;
 mod state;
+mod surfaces;
 mod words;
 
+use crate::facet::FacetPair;
 use crate::material::Law;
+use crate::obstacle;
 use crate::state::{ContactPair, Method};
 use glam::DVec3;
 use std::path::Path;
@@ -38,6 +42,11 @@ pub struct Scene {
     pub coupling: Vec<Vec<f64>>,
     /// How bodies a and b touch.
     pub contacts: Vec<Vec<ContactPair<f64>>>,
+    /// How the surfaces of bodies a and b touch.
+    pub facet_pairs: Vec<Vec<FacetPair<f64>>>,
+    pub obstacles: Vec<Obstacle>,
+    /// In order of the numbers of the particles that carry them; none where nothing touches by surfaces.
+    pub facets: Vec<Facet>,
     pub constraints: Vec<Constraint>,
     /// In order of their numbers.
     pub particles: Vec<Particle>,
@@ -54,6 +63,8 @@ pub struct Scene {
 #[derive(Debug, Clone)]
 pub struct Body {
     pub name: String,
+    /// Name that it shares with its copies, or its own.
+    pub group: String,
     pub spacing: f64,
     pub smoothing_length: f64,
     pub density: f64,
@@ -89,6 +100,28 @@ pub struct Particle {
     /// Unstressed.
     pub volume: f64,
     pub velocity: DVec3,
+}
+
+/// A rigid obstacle.
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    pub name: String,
+    pub shape: obstacle::Obstacle<f64>,
+    /// At the start, or throughout where it is prescribed.
+    pub velocity: DVec3,
+    /// 0 where the motion is prescribed.
+    pub inverse_mass: f64,
+    /// Index among the constraints of what prescribes its velocity.
+    pub condition: Option<usize>,
+    /// How it touches each body.
+    pub pairs: Vec<FacetPair<f64>>,
+}
+
+/// A piece of a body's surface, and the number of the particle that carries it.
+#[derive(Debug, Clone, Copy)]
+pub struct Facet {
+    pub owner: u32,
+    pub piece: facets::Facet,
 }
 
 /// A boundary condition.
@@ -151,8 +184,9 @@ impl Scene {
         particle.volume * self.bodies[particle.body as usize].density
     }
 
+    /// Index of the body, or of the first copy, of that name.
     pub fn body_index(&self, name: &str) -> Option<usize> {
-        self.bodies.iter().position(|body| body.name == name)
+        copies::named(&self.bodies, name).first().copied()
     }
 
     /// Scene and variant as one word, for folders and captions.
@@ -160,13 +194,13 @@ impl Scene {
         self.variant.as_ref().map_or_else(|| self.name.clone(), |variant| format!("{}-{variant}", self.name))
     }
 
-    /// Numbers of the particles of a body, inside a shape at the start, or both.
+    /// Numbers of the particles of a body or of all copies of it, inside a shape at the start, or both.
     pub fn select(&self, body: Option<&str>, inside: Option<&shape::Shape>) -> Vec<usize> {
-        let wanted = body.and_then(|name| self.body_index(name));
+        let wanted = body.map(|name| copies::named(&self.bodies, name));
         (0..self.particles.len())
             .filter(|&i| {
                 let particle = &self.particles[i];
-                wanted.is_none_or(|w| particle.body as usize == w)
+                wanted.as_ref().is_none_or(|list| list.binary_search(&(particle.body as usize)).is_ok())
                     && inside.is_none_or(|shape| shape.contains(particle.position, self.dimension()))
             })
             .collect()

@@ -1,10 +1,12 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
+use super::copies::{expand, named, pairs};
 use super::corrected_kernel::{self, Configuration};
 use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
 use super::packing::fill;
 use super::read::{Read, Source, hint};
 use super::shape::used;
+use super::surfaces::Parts;
 use super::{Body, Constraint, Particle, Plane, Scene, file, quasi_static};
 use crate::material::Law;
 use crate::state::{ContactPair, Method};
@@ -12,16 +14,22 @@ use glam::DVec3;
 use std::sync::OnceLock;
 
 pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
-    let Read { file, source, variant, resolved_text: text, .. } = read;
-    let refuse = Refuse { source: &source };
+    let Read { mut file, source, variant, resolved_text: text, .. } = read;
+    let typed_at = expand(&mut file)
+        .map_err(|(k, message)| Refuse { source: &source, typed_at: &[] }.at(&["body", &k.to_string(), "copies"], message))?;
+    let refuse = Refuse { source: &source, typed_at: &typed_at };
     numbers(&file, &refuse)?;
     let bodies = bodies(&file, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
-    let constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
+    let mut constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
     let coupling = coupling(&file, &bodies, &refuse)?;
     let contacts = contacts(&file, &bodies, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
+    let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, refuse: &refuse };
+    let facet_pairs = parts.gaps()?;
+    let obstacles = parts.obstacles(&mut constraints)?;
+    let facets = parts.facets(&facet_pairs, &obstacles);
     let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
     let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
     let scene = Scene {
@@ -33,6 +41,9 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         bodies,
         coupling,
         contacts,
+        facet_pairs,
+        obstacles,
+        facets,
         constraints,
         particles,
         period,
@@ -47,11 +58,19 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
 /// Makes the sentences of refusals.
 pub(super) struct Refuse<'a> {
     source: &'a Source,
+    /// For each body, copies among them, the place where it was typed.
+    typed_at: &'a [usize],
 }
 
 impl Refuse<'_> {
     pub(super) fn at(&self, path: &[&str], message: impl Into<String>) -> String {
-        format!("{}: {}", self.source.place(path), message.into())
+        let body = path.get(1).filter(|_| path[0] == "body").and_then(|at| at.parse().ok());
+        let typed = body.and_then(|k: usize| self.typed_at.get(k)).map(usize::to_string);
+        let mut path = path.to_vec();
+        if let Some(typed) = &typed {
+            path[1] = typed;
+        }
+        format!("{}: {}", self.source.place(&path), message.into())
     }
     pub(super) fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
         if holds { Ok(()) } else { Err(self.at(path, message())) }
@@ -179,6 +198,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
         }
         list.push(Body {
             name: typed.name.clone(),
+            group: typed.group.clone().unwrap_or_else(|| typed.name.clone()),
             spacing,
             smoothing_length: file.formulation.smoothing_length * spacing,
             density: material.density,
@@ -194,7 +214,9 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
 }
 
 fn names(bodies: &[Body]) -> Vec<&str> {
-    bodies.iter().map(|body| body.name.as_str()).collect()
+    let mut list: Vec<&str> = bodies.iter().map(|body| body.group.as_str()).collect();
+    list.dedup();
+    list
 }
 
 /// Bulk and shear modulus from the pair of constants that is typed.
@@ -272,12 +294,14 @@ fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse:
         let name = typed.name.clone().unwrap_or_else(|| format!("boundary {}", k + 1));
         let wanted = match &typed.select.body {
             None => None,
-            Some(word) => Some(bodies.iter().position(|b| &b.name == word).ok_or_else(|| {
-                refuse.at(&path, format!("`{name}` selects no body named `{word}`{}", hint(word, &names(bodies))))
-            })?),
+            Some(word) => Some(named(bodies, word)),
         };
+        if let (Some([]), Some(word)) = (wanted.as_deref(), &typed.select.body) {
+            let hint = hint(word, &names(bodies));
+            return Err(refuse.at(&path, format!("`{name}` selects no body named `{word}`{hint}")));
+        }
         let chosen = |p: &Particle| {
-            wanted.is_none_or(|w| p.body as usize == w)
+            wanted.as_ref().is_none_or(|list| list.binary_search(&(p.body as usize)).is_ok())
                 && typed.select.inside.as_ref().is_none_or(|s| s.contains(p.position, file.dimension))
         };
         let mass: f64 = particles.iter().filter(|p| chosen(p)).map(|p| p.volume * bodies[p.body as usize].density).sum();
@@ -337,25 +361,26 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
     for (k, contact) in file.contact.iter().enumerate() {
         let at = k.to_string();
         let path = ["contact", &at, "between"];
-        let index = |word: &String| {
-            bodies
-                .iter()
-                .position(|b| &b.name == word)
-                .ok_or_else(|| refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))))
-        };
-        let (a, b) = (index(&contact.between[0])?, index(&contact.between[1])?);
-        refuse.unless(contact.kernel.is_some() || contact.potential.is_some(), &["contact", &at], || {
-            "a contact needs kernel or potential".into()
-        })?;
+        if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
+            return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
+        }
+        refuse.unless(
+            contact.kernel.is_some() || contact.potential.is_some() || contact.gap.is_some(),
+            &["contact", &at],
+            || "a contact needs kernel, potential or gap".into(),
+        )?;
         let Some(kernel) = contact.kernel else { continue };
-        refuse.unless(a != b, &path, || "a body cannot be uncoupled from itself".into())?;
+        let touching = pairs(bodies, &contact.between);
+        refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
         refuse.unless((0.0..=1.0).contains(&kernel), &["contact", &at, "kernel"], || {
             format!("kernel must lie between 0 (off) and 1 (as one body), found {kernel}")
         })?;
         refuse.unless(apart > 0.0 || kernel == 0.0, &["contact", &at, "kernel"], || {
             "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
         })?;
-        (table[a][b], table[b][a]) = (kernel, kernel);
+        for (a, b) in touching {
+            (table[a][b], table[b][a]) = (kernel, kernel);
+        }
     }
     Ok(table)
 }
@@ -382,13 +407,13 @@ fn contacts(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<Con
                 format!("{key} must be a positive number, found {value}")
             })?;
         }
-        let index = |word: &String| bodies.iter().position(|b| &b.name == word).unwrap_or(0);
-        let (a, b) = (index(&contact.between[0]), index(&contact.between[1]));
-        let spacing = 0.5 * (bodies[a].spacing + bodies[b].spacing);
-        let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
-        let strength = potential.stiffness * modulus * spacing.powi(file.dimension as i32);
-        let pair = ContactPair { strength, range: potential.range * spacing };
-        (table[a][b], table[b][a]) = (pair, pair);
+        for (a, b) in pairs(bodies, &contact.between) {
+            let spacing = 0.5 * (bodies[a].spacing + bodies[b].spacing);
+            let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
+            let strength = potential.stiffness * modulus * spacing.powi(file.dimension as i32);
+            let pair = ContactPair { strength, range: potential.range * spacing };
+            (table[a][b], table[b][a]) = (pair, pair);
+        }
     }
     Ok(table)
 }
@@ -436,9 +461,9 @@ fn method(
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
         "xsph and velocity_filter are two uses of one average: name one of them".into()
     })?;
-    let dissipates = f.viscosity.is_some() || bodies.iter().any(|body| body.law.has_memory());
+    let dissipates = f.viscosity.is_some() || rubs(file) || bodies.iter().any(|body| body.law.has_memory());
     refuse.unless(!f.dissipated_energy || dissipates, &["formulation", "dissipated_energy"], || {
-        "dissipated_energy adds up the heat of viscosity, and this scene names no viscosity".into()
+        "dissipated_energy adds up the heat of viscosity and friction, and this scene names no viscosity and no friction".into()
     })?;
     let lagrangian = f.kind == Kind::TotalLagrangian;
     let corrected_kernel = corrected_kernel::options(file, refuse)?;
@@ -468,6 +493,9 @@ fn method(
         periodic: period.iter().any(|&p| p > 0.0),
         body_force,
         contact: file.contact.iter().find_map(|contact| contact.potential.as_ref()).map(|p| p.law),
+        gap: file.contact.iter().find_map(|contact| contact.gap.as_ref()).map(|gap| gap.form),
+        obstacles: !file.obstacle.is_empty(),
+        friction: rubs(file),
         viscosity: f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0),
         xsph: f.xsph.is_some_and(|w| w > 0.0),
         velocity_filter: f.velocity_filter.is_some_and(|w| w > 0.0),
@@ -476,6 +504,11 @@ fn method(
         dissipated_energy: f.dissipated_energy,
         compensated: false,
     })
+}
+
+fn rubs(file: &File) -> bool {
+    let gaps = file.contact.iter().filter_map(|contact| contact.gap.as_ref()).map(|gap| gap.friction);
+    gaps.chain(file.obstacle.iter().map(|obstacle| obstacle.friction)).any(|friction| friction > 0.0)
 }
 
 /// What belongs to one formulation and not to the other.
@@ -514,7 +547,7 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {
         "the quadratic gradient belongs to formulation.kind `total_lagrangian`, and does not see mirror images: no [[symmetry]]".into()
     })?;
-    let touches = file.contact.iter().any(|contact| contact.potential.is_some());
+    let touches = file.contact.iter().any(|contact| contact.potential.is_some() || contact.gap.is_some());
     refuse.unless(!lagrangian || touches || f.list_margin.is_none(), &["formulation", "list_margin"], || {
         "list_margin is that of a list that follows the particles: a Total Lagrangian scene has one only where bodies touch"
             .into()

@@ -3,8 +3,8 @@
 use super::Scene;
 use super::file::Viscosity;
 use crate::bond::BondTable;
-use crate::particles::{Field, Particles, Type};
-use crate::state::{Balance, Body, Clock, Constraint, Method, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::particles::{Field, Particles, Set, Type};
+use crate::state::{Balance, Body, Clock, Constraint, Method, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
@@ -31,12 +31,18 @@ impl Scene {
         let real = S::Real::of;
         let kept = if keeps_gradients(&method) { count * params.list_capacity as usize } else { 0 };
         let mut state = State {
-            particles: Particles::allocate(count, &step::fields(&method)),
+            particles: Particles::allocate(params.counts(), &step::fields(&method)),
             method,
             params,
             clock: Clock::default(),
             bodies: self.bodies.iter().map(super::Body::numbers).collect(),
             coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
+            facet_pairs: self.facet_pairs.iter().flatten().map(|pair| pair.map(real)).collect(),
+            obstacles: self.obstacles.iter().map(|obstacle| obstacle.shape.cast()).collect(),
+            movers: self.obstacles.iter().map(super::Obstacle::mover).collect(),
+            obstacle_pairs: self.obstacles.iter().flat_map(|o| &o.pairs).map(|pair| pair.map(real)).collect(),
+            facet_contacts: vec![0; self.facets.len() * params.facet_capacity as usize],
+            block_load: vec![S::Vec::default(); params.facet_blocks() * self.obstacles.len()],
             contact_pairs: self.contacts.iter().flatten().map(|pair| pair.map(real)).collect(),
             constraints: Vec::new(),
             course: Vec::new(),
@@ -55,6 +61,7 @@ impl Scene {
         };
         self.fill_constraints(&mut state);
         self.fill_particles(&mut state);
+        self.fill_facets(&mut state);
         state
     }
 
@@ -66,12 +73,13 @@ impl Scene {
             let size = if field.kind() == Type::Integer { 4 } else { word };
             size * field.kind().words_in(self.dimension())
         };
-        let columns: usize = step::fields(&method).into_iter().map(bytes).sum();
         let params = self.params::<f64>();
+        let of = |set: Set| step::fields(&method).into_iter().filter(|f| f.set() == set).map(bytes).sum::<usize>();
+        let (columns, facet) = (of(Set::Particle), of(Set::Facet) + 4 * params.facet_capacity as usize);
         let lists = params.list_capacity + params.contact_capacity;
         let kept = if keeps_gradients(&method) { 4 + word * Type::Vec.words_in(self.dimension()) } else { 0 };
         let particle = (columns + 4 * (1 + lists as usize) + kept * params.list_capacity as usize) as u64;
-        particle * self.particles.len() as u64 + 8 * u64::from(params.cell_total)
+        particle * self.particles.len() as u64 + (facet * self.facets.len()) as u64 + 8 * u64::from(params.cell_total)
     }
 
     fn fill_constraints<S: Space>(&self, state: &mut State<S>) {
@@ -120,6 +128,24 @@ impl Scene {
         }
     }
 
+    fn fill_facets<S: Space>(&self, state: &mut State<S>) {
+        let columns = &mut state.particles;
+        for (e, facet) in self.facets.iter().enumerate() {
+            let owner = facet.owner as usize;
+            if columns.facets[owner] == 0 {
+                columns.first_facet[owner] = e as u32;
+            }
+            columns.facets[owner] += 1;
+            columns.facet_owner[e] = facet.owner;
+            columns.facet_reference_position[e] = S::vec_from(facet.piece.position.to_array());
+            columns.facet_reference_normal[e] = S::vec_from(facet.piece.normal.to_array());
+            columns.facet_area[e] = S::Real::of(facet.piece.area);
+        }
+        for (k, obstacle) in self.obstacles.iter().enumerate() {
+            columns.obstacle_velocity[k] = S::vec_from(obstacle.velocity.to_array());
+        }
+    }
+
     /// Corners of the particles' box at the start.
     pub fn extent(&self) -> (DVec3, DVec3) {
         let ends = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -138,7 +164,8 @@ impl Scene {
 
     /// How far beyond the range of what acts the list that follows the particles reaches.
     fn margin(&self) -> f64 {
-        let usual = if self.method.contact.is_some() { CONTACT_MARGIN } else { self.file.list_margin() };
+        let usual =
+            if self.method.contact.is_some() || self.method.gap.is_some() { CONTACT_MARGIN } else { self.file.list_margin() };
         self.file.formulation.list_margin.unwrap_or(usual) * self.smoothing_length()
     }
 
@@ -146,6 +173,45 @@ impl Scene {
     fn contact_reach(&self) -> f64 {
         let range = self.contacts.iter().flatten().map(|pair| pair.range).fold(0.0, f64::max);
         if range > 0.0 { range + self.margin() } else { 0.0 }
+    }
+
+    /// Distance up to which pairs enter the list of facets; 0 where no surfaces touch.
+    fn facet_reach(&self) -> f64 {
+        let range = self.facet_pairs.iter().flatten().map(|pair| pair.range).fold(0.0, f64::max);
+        if range > 0.0 { range + self.margin() } else { 0.0 }
+    }
+
+    /// Distance from a facet up to which the particles lie whose facets it may touch.
+    fn facet_cell(&self) -> f64 {
+        if self.method.gap.is_some() { self.facet_reach() + self.longest_lever() } else { 0.0 }
+    }
+
+    /// Longest way from a facet to its particle.
+    fn longest_lever(&self) -> f64 {
+        let lever = |facet: &super::Facet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
+        self.facets.iter().map(lever).fold(0.0, f64::max)
+    }
+
+    /// Entries that a facet's list can hold: two faces within reach, crowded.
+    fn facet_capacity(&self) -> u32 {
+        let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
+        let q = self.facet_reach() / spacing;
+        let face = [2.0, 2.0 * q, std::f64::consts::PI * q * q][self.dimension() - 1];
+        if q > 0.0 { (2.0 * face) as u32 + 16 } else { 0 }
+    }
+
+    /// Square of the rate that the stiffest contact by surfaces gives a particle: k A/m of a face of one spacing,
+    /// a quarter of it, so that a step at cfl 1 stays below the limit of 2 over the frequency.
+    fn contact_rate(&self) -> f64 {
+        let pairs = self.facet_pairs.iter().map(|row| (row, 2.0));
+        let rate = |body: &super::Body, stiffness: f64| stiffness / (body.density * body.spacing);
+        let mut largest: f64 = 0.0;
+        for (k, body) in self.bodies.iter().enumerate() {
+            let own = pairs.clone().map(|(row, sides)| sides * row[k].stiffness);
+            let against = self.obstacles.iter().map(|obstacle| obstacle.pairs[k].stiffness);
+            largest = own.chain(against).fold(largest, |most, stiffness| most.max(rate(body, stiffness)));
+        }
+        0.25 * largest
     }
 
     /// Entries that a list of contacts can hold: the half space within reach, crowded.
@@ -202,6 +268,9 @@ impl Scene {
             body_count: self.bodies.len() as u32,
             artificial_exponent: f.artificial_stress.as_ref().map_or(0, |a| a.exponent),
             contact_capacity: self.contact_capacity(),
+            facet_count: self.facets.len() as u32,
+            facet_capacity: self.facet_capacity(),
+            obstacle_count: self.obstacles.len() as u32,
             zero: 0,
             origin_x: real(origin[0]),
             origin_y: real(origin[1]),
@@ -218,6 +287,8 @@ impl Scene {
             normalisation: real(f.smoothing.normalisation(self.dimension())),
             reach: real(self.reach()),
             contact_reach: real(self.contact_reach()),
+            facet_reach: real(self.facet_reach()),
+            contact_rate: real(self.contact_rate()),
             contact_apart: real(CONTACT_APART * self.bodies.iter().map(|b| b.spacing).fold(0.0, f64::max)),
             slack: real(0.5 * self.margin()),
             hourglass: real(self.file.formulation.hourglass()),
@@ -241,7 +312,7 @@ impl Scene {
         let length = (high - low).max(DVec3::ZERO);
         let most = (CELLS_PER_PARTICLE * self.particles.len()).max(1 << 12);
         // A little more than the reach, so that rounding cannot put a pair two cells apart.
-        let mut side = self.reach().max(self.contact_reach()) * 1.001;
+        let mut side = self.reach().max(self.contact_reach()).max(self.facet_cell()) * 1.001;
         loop {
             let (mut origin, mut size, mut cells) = ([0.0; 3], [side; 3], [1u32; 3]);
             for k in 0..self.dimension() {
@@ -259,6 +330,13 @@ impl Scene {
             }
             side *= 1.1;
         }
+    }
+}
+
+impl super::Obstacle {
+    fn mover<R: Real>(&self) -> Mover<R> {
+        let condition = self.condition.map_or(0, |index| index as u32 + 1);
+        Mover { condition, inverse_mass: R::of(self.inverse_mass) }
     }
 }
 

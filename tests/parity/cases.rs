@@ -21,6 +21,8 @@ pub struct Case {
     /// Laws of the two materials, or none for the default.
     pub laws: [&'static str; 2],
     pub compensated: bool,
+    /// Between the two blocks, in spacings.
+    pub gap: f64,
     /// Lines of the scene: those of no table, of the formulation, and of the time.
     pub top: &'static str,
     pub formulation: &'static str,
@@ -44,10 +46,28 @@ const BARE: Case = Case {
     fluid: false,
     laws: [""; 2],
     compensated: false,
+    gap: GAP,
     top: "",
     formulation: "",
     time: "",
 };
+
+/// A wall that moves, and a ball that flies; with friction.
+const OBSTACLES: &str =
+    "contact = [{ between = [\"first\", \"second\"], gap = { stiffness = 2, range = 2, friction = 0.3 } }]
+    obstacle = [
+        { name = \"wall\", shape = { plane = { point = [0.3, 0, 0], normal = [1, 0, 0] } }, velocity = [0.01, 0.02, 0.01], course = [[0, 1], [700, 3]], friction = 0.2 },
+        { name = \"ball\", shape = { sphere = { center = [8, -9.7, 4], radius = 10 } }, velocity = [0, 0.01, 0], mass = 7, friction = 0.4 },
+    ]";
+const SOLID_OBSTACLES: &str =
+    "contact = [{ between = [\"first\", \"second\"], gap = { stiffness = 2, range = 2, friction = 0.3 } }]
+    obstacle = [
+        { name = \"wall\", shape = { plane = { point = [0.3, 0, 0], normal = [1, 0, 0] } }, velocity = [0.01, 0.02, 0.01], course = [[0, 1], [700, 3]], friction = 0.2 },
+        { name = \"ball\", shape = { sphere = { center = [8, -9.7, 4], radius = 10 } }, velocity = [0, 0.01, 0], mass = 7, friction = 0.4 },
+        { name = \"bar\", shape = { cylinder = { center = [6, 13.6, 4], axis = [1, 0, 1], radius = 4 } }, velocity = [0, 0, 0.01], friction = 0.4 },
+        { name = \"cone\", shape = { cone = { apex = [4.1, 4.2, 8.5], axis = [0, 0, 1], half_angle = 70.3 } }, against = [\"first\"] },
+        { name = \"tip\", shape = { berkovich = { apex = [6.1, 5.2, 0.5], axis = [0, 0, -1] } }, against = [\"first\"] },
+    ]";
 
 const FIRE: &str =
     "cfl = 0.8\n[quasi_static]\nload_steps = 4\n[output]\nfields = []\npicture = { field = \"displacement.magnitude\" }";
@@ -163,6 +183,36 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 2 } }]",
             formulation: "kind = \"total_lagrangian\"\nviscosity = { alpha = 1.0, softening = 0.01 }\ndissipated_energy = true",
             time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, surfaces and obstacles with friction and heat",
+            bodies: 2,
+            boundary: true,
+            gap: -0.2,
+            laws: ["neo_hookean", "st_venant_kirchhoff"],
+            top: if dimension == 3 { SOLID_OBSTACLES } else { OBSTACLES },
+            formulation: "kind = \"total_lagrangian\"\ndissipated_energy = true",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, surfaces along their normals, and a potential",
+            bodies: 2,
+            gap: -0.2,
+            laws: ["neo_hookean", "st_venant_kirchhoff"],
+            top: "contact = [{ between = [\"first\", \"second\"], gap = { form = \"along_normals\" } },
+                { between = [\"first\", \"first\"], potential = { law = \"barrier\", stiffness = 0.5, range = 1 } }]",
+            formulation: "kind = \"total_lagrangian\"\ngradient = \"plain\"",
+            ..BARE
+        },
+        Case {
+            name: "fire, obstacles",
+            units: PLAIN,
+            boundary: true,
+            laws: ["neo_hookean"; 2],
+            top: "obstacle = [{ name = \"wall\", shape = { plane = { point = [0.3, 0, 0], normal = [1, 0, 0] } }, velocity = [0.0005, 0, 0] }]",
+            formulation: "kind = \"total_lagrangian\"",
+            time: FIRE,
             ..BARE
         },
         Case {
@@ -363,7 +413,7 @@ impl Case {
         }
         text += &self.block("first", 0.0, first, 1.0);
         if self.bodies == 2 {
-            text += &self.block("second", first[0] + GAP, second, FINER);
+            text += &self.block("second", first[0] + self.gap, second, FINER);
         }
         text += &self.material("first", 1.0);
         text += &self.material("second", 2.2);

@@ -4,7 +4,7 @@
 
 use crate::tables::{field, padding};
 use lithosph::pair::separation;
-use lithosph::particles::{Field, Type};
+use lithosph::particles::{Field, Set, Type};
 use lithosph::pass::Pass;
 use lithosph::smoothing::Smoothing;
 use lithosph::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
@@ -130,6 +130,12 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
             let rows = state.contacts.len() / count;
             Some((0..rows).flat_map(|k| (0..count).filter_map(move |a| entry(k, a))).collect())
         }
+        "facet_contacts" => {
+            let (count, counts) = (state.params.facet_count as usize, &state.particles.facet_contact_count);
+            let entry = |k: usize, e: usize| (k < counts[e] as usize).then(|| state.facet_contacts[k * count + e]);
+            let rows = state.params.facet_capacity as usize;
+            Some((0..rows).flat_map(|k| (0..count).filter_map(move |e| entry(k, e))).collect())
+        }
         "kept_neighbors" => Some(kept(state).map(|place| state.kept_neighbors[place]).collect()),
         _ => match field(name) {
             Some(field) if field.kind() == Type::Integer => Some(bytemuck::cast_slice(state.particles.bytes(field)).to_vec()),
@@ -177,6 +183,9 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
             let column = |k: usize| state.block_residual.iter().map(|measure| measure[k].f64()).collect();
             (0..8).map(|k| one(&format!("block_residual.{k}"), column(k))).collect()
         }
+        "block_load" => {
+            vec![one(name, state.block_load.iter().flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
+        }
         "block_bound" => {
             let column = |k: usize| state.block_bound.iter().map(|bound| bound[k].f64()).collect();
             (0..4).map(|k| one(&format!("block_bound.{}", ["x", "y", "z", "w"][k]), column(k))).collect()
@@ -191,7 +200,7 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
                 let all: &[S::Real] = bytemuck::cast_slice(state.particles.bytes(field));
                 let kept = all.iter().enumerate().filter(|(k, _)| !padding::<S>(field.kind(), k % width));
                 let values: Vec<f64> = kept.map(|(_, x)| x.f64()).collect();
-                assert!(values.len() >= 1000, "{name} has too few numbers");
+                assert!(values.len() >= 1000 || field.set() != Set::Particle, "{name} has too few numbers");
                 vec![one(name, values)]
             }
             _ => Vec::new(),

@@ -4,12 +4,14 @@ use crate::cases::{CELL, Case, EDGE};
 use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;
+use lithosph::facet::FacetPair;
+use lithosph::obstacle::Obstacle;
 use lithosph::particles::{Field, Particles, Type};
-use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Params, SCAN_BLOCK, State};
+use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, SCAN_BLOCK, State};
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
-pub const TABLES: [&str; 10] = [
+pub const TABLES: [&str; 12] = [
     "clock",
     "cell_count",
     "cell_start",
@@ -17,6 +19,8 @@ pub const TABLES: [&str; 10] = [
     "cell_particles",
     "neighbors",
     "contacts",
+    "facet_contacts",
+    "block_load",
     "kept_neighbors",
     "kept_gradients",
     "block_bound",
@@ -35,6 +39,8 @@ fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
         "cell_particles" => cast_slice(&state.cell_particles),
         "neighbors" => cast_slice(&state.neighbors),
         "contacts" => cast_slice(&state.contacts),
+        "facet_contacts" => cast_slice(&state.facet_contacts),
+        "block_load" => cast_slice(&state.block_load),
         "kept_neighbors" => cast_slice(&state.kept_neighbors),
         "kept_gradients" => cast_slice(&state.kept_gradients),
         "block_bound" => cast_slice(&state.block_bound),
@@ -51,6 +57,8 @@ fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] 
         "cell_particles" => cast_slice_mut(&mut state.cell_particles),
         "neighbors" => cast_slice_mut(&mut state.neighbors),
         "contacts" => cast_slice_mut(&mut state.contacts),
+        "facet_contacts" => cast_slice_mut(&mut state.facet_contacts),
+        "block_load" => cast_slice_mut(&mut state.block_load),
         "kept_neighbors" => cast_slice_mut(&mut state.kept_neighbors),
         "kept_gradients" => cast_slice_mut(&mut state.kept_gradients),
         "block_bound" => cast_slice_mut(&mut state.block_bound),
@@ -120,7 +128,25 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         sound_speed: real(b.sound_speed),
         smoothing_length: real(b.smoothing_length),
     };
+    let facet_pair = |p: &FacetPair<A::Real>| FacetPair {
+        stiffness: real(p.stiffness),
+        range: real(p.range),
+        full: real(p.full),
+        friction: real(p.friction),
+    };
+    let mover = |m: &Mover<A::Real>| Mover { condition: m.condition, inverse_mass: real(m.inverse_mass) };
+    let vec = |v: &A::Vec| {
+        let mut new = B::Vec::default();
+        (0..A::DIMENSION).for_each(|k| new[k] = real(v[k]));
+        new
+    };
     State {
+        facet_pairs: from.facet_pairs.iter().map(facet_pair).collect(),
+        obstacles: from.obstacles.iter().map(obstacle).collect(),
+        movers: from.movers.iter().map(mover).collect(),
+        obstacle_pairs: from.obstacle_pairs.iter().map(facet_pair).collect(),
+        facet_contacts: from.facet_contacts.clone(),
+        block_load: from.block_load.iter().map(vec).collect(),
         method: from.method.clone(),
         params: params(&from.params, real),
         clock: clock(&from.clock, real),
@@ -156,7 +182,7 @@ fn vector<A: Space, B: Space>(from: A::Vec) -> B::Vec {
 }
 
 fn particles<A: Space, B: Space>(from: &State<A>) -> Particles<B> {
-    let mut to = Particles::<B>::allocate(from.params.count as usize, &from.particles.present());
+    let mut to = Particles::<B>::allocate(from.params.counts(), &from.particles.present());
     for field in from.particles.present() {
         let (old, new) = (from.particles.bytes(field), to.bytes_mut(field));
         if field.kind() == Type::Integer {
@@ -215,6 +241,15 @@ fn balance_of(step: f32) -> Balance<f32> {
     }
 }
 
+fn obstacle<A: Real, B: Real>(from: &Obstacle<A>) -> Obstacle<B> {
+    macro_rules! all {
+        ($($real:ident),*) => {
+            Obstacle { kind: from.kind, padding: from.padding, $($real: B::of(from.$real.f64())),* }
+        };
+    }
+    all!(point_x, point_y, point_z, axis_x, axis_y, axis_z, turn_x, turn_y, turn_z, radius, cosine, sine)
+}
+
 fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B> {
     macro_rules! all {
         (same: $($same:ident),*; real: $($real:ident),*) => {
@@ -223,10 +258,10 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
     }
     all!(
         same: count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-            artificial_exponent, zero, contact_capacity;
+            artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
             body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
-            artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach
+            artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach, facet_reach, contact_rate
     )
 }
 
@@ -305,10 +340,10 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let [spacing, ..] = case.units;
     let (density, bulk, speed) = (f64::from(body.density), f64::from(body.bulk_modulus), f64::from(body.sound_speed));
     let rate = speed / spacing;
-    let count = state.params.count as usize;
+    let count = state.params.counts().of(field.set());
     let kind = field.kind();
     if kind == Type::Integer {
-        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount) {
+        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount | FacetObstacle) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
         }
@@ -339,6 +374,15 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             QuadraticStress => bulk * strain(random) / spacing,
             DisplacementGradient | ViscousStrain => 0.1 * random.signed(),
             ContactEnergy | HourglassEnergy => 1e-3 * speed * speed * random.unit(),
+            FacetReferencePosition | FacetReferenceNormal | FacetArea => f64::from(old),
+            FacetDisplacement | ObstacleDisplacement => 0.01 * spacing * random.signed(),
+            FacetMove | FacetSlip | FacetObstacleSlip | ObstacleMove => 0.002 * spacing * random.signed(),
+            FacetNormal => random.signed(),
+            FacetGap => 0.1 * spacing * random.signed(),
+            FacetSpread => 0.3 + 0.1 * random.signed(),
+            FacetPull | FacetTraction | FacetForce | FacetLoad | ObstacleForce => 1e-3 * bulk * random.signed(),
+            FacetEdge | FacetMoment | FacetEnergy | FacetHeat | FacetPressure => 1e-3 * bulk * random.signed(),
+            ObstacleVelocity => 0.1 * speed * random.signed(),
             BondStress => bulk * strain(random),
             ShapeFactor => 1.0 + 0.1 * random.signed(),
             ShapeSlope | ShapeFactorGradient => random.signed() / spacing,
@@ -346,6 +390,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             ShapeStress => bulk * strain(random),
             DisplacementGradientStart => 0.1 * random.signed(),
             DisplacementGradientRate | DisplacementGradientSum => 0.02 * rate * random.signed(),
+            FirstFacet | Facets | FacetOwner | FacetContactCount | FacetObstacle => unreachable!(),
             Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount | KeptCount => unreachable!(),
         }
     };

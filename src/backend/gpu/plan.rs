@@ -3,6 +3,7 @@
 use super::connection::Connection;
 use super::tables::{Part, Tables};
 use crate::backend::shader::{self, Binding, Interface, Kind, Shader};
+use crate::particles::Set;
 use crate::pass::{Call, Domain, Entry, Pass};
 use crate::state::{Method, REDUCTION_BLOCK, SCAN_BLOCK};
 use std::collections::BTreeMap;
@@ -96,7 +97,7 @@ impl Planner {
         }
         let mut actions = Vec::new();
         if call.pass == Pass::Reorder {
-            for field in tables.carried() {
+            for field in tables.carried().filter(|field| field.set() == Set::Particle) {
                 let table = tables.field(field)?;
                 let words = [("words", f64::from(tables.words(field)))];
                 self.dispatch(link, tables, call, &words, &[("source", &table.buffer)], &mut actions)?;
@@ -170,6 +171,8 @@ fn groups(domain: Domain, tables: &Tables, part: &Part, workgroup: u32) -> u32 {
         Domain::Particles => params.count.div_ceil(workgroup),
         Domain::Listed => part.count.div_ceil(workgroup),
         Domain::Cells => params.cell_total.div_ceil(workgroup),
+        Domain::Facets => params.facet_count.div_ceil(workgroup),
+        Domain::FacetBlocks => params.facet_blocks() as u32,
         Domain::ScanBlocks => params.cell_total.div_ceil(SCAN_BLOCK as u32),
         Domain::ReductionBlocks => params.count.div_ceil(REDUCTION_BLOCK as u32),
         Domain::One => 1,

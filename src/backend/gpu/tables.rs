@@ -2,8 +2,10 @@
 
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
+use crate::facet::FacetPair;
+use crate::obstacle::Obstacle;
 use crate::particles::{Field, Type};
-use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::Space;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
@@ -18,7 +20,7 @@ macro_rules! plain {
         unsafe impl Pod for $name<f32> {}
     )* };
 }
-plain!(Params, Body, Constraint, ContactPair, Clock, Balance);
+plain!(Params, Body, Constraint, ContactPair, FacetPair, Obstacle, Mover, Clock, Balance);
 
 /// Bytes of the smallest buffer: no shader's element is larger.
 const SMALLEST: u64 = 64;
@@ -201,13 +203,19 @@ struct Content<'a> {
 
 fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> Vec<Content<'a>> {
     let params = &state.params;
-    let (count, cells) = (params.count as usize, params.cell_total as usize);
+    let (counts, count, cells) = (params.counts(), params.count as usize, params.cell_total as usize);
     let table = |name, host: &'a [u8], least: usize| Content { name, bytes: host.len().max(least) as u64, host, carried: false };
     let mut list = vec![
         table("clock", bytes_of(&state.clock), 0),
         table("bodies", cast_slice(&state.bodies), 0),
         table("contact_pairs", cast_slice(&state.contact_pairs), 0),
         table("contacts", cast_slice(&state.contacts), 0),
+        table("facet_pairs", cast_slice(&state.facet_pairs), 0),
+        table("obstacles", cast_slice(&state.obstacles), 0),
+        table("movers", cast_slice(&state.movers), 0),
+        table("obstacle_pairs", cast_slice(&state.obstacle_pairs), 0),
+        table("facet_contacts", cast_slice(&state.facet_contacts), 0),
+        table("block_load", cast_slice(&state.block_load), 0),
         table("kept_neighbors", cast_slice(&state.kept_neighbors), 0),
         table("kept_gradients", cast_slice(&state.kept_gradients), 0),
         table("coupling", cast_slice(&state.coupling), 0),
@@ -223,7 +231,7 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
     ];
     list.extend(fields.iter().map(|&field| Content {
         carried: field.carried(),
-        ..table(field.name(), state.particles.bytes(field), 4 * count * field.kind().words_in(S::DIMENSION))
+        ..table(field.name(), state.particles.bytes(field), 4 * counts.of(field.set()) * field.kind().words_in(S::DIMENSION))
     }));
     list
 }

@@ -4,7 +4,7 @@
 use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
-use crate::particles::Particles;
+use crate::particles::{Counts, Particles};
 use crate::pass::{Pass, Stage};
 use crate::scene::file::{Density, Gradient, Integrator};
 use crate::smoothing::Smoothing;
@@ -20,6 +20,9 @@ fn method() -> Method {
         hourglass: false,
         bond_table: false,
         contact: None,
+        gap: None,
+        obstacles: false,
+        friction: false,
         quasi_static: None,
         smoothing: Smoothing::CubicSpline,
         integrator: Integrator::Leapfrog,
@@ -45,7 +48,7 @@ fn method() -> Method {
 /// A square lattice of spacing 1 with a velocity that varies, in an order that is not that of the cells.
 fn state(side: usize) -> State<Plane<f32>> {
     let (method, count, cells) = (method(), side * side, side / 2 + 5);
-    let mut particles = Particles::allocate(count, &step::fields(&method));
+    let mut particles = Particles::allocate(Counts { particles: count, ..Counts::default() }, &step::fields(&method));
     for i in 0..count {
         let place = (i * 7919) % count;
         let (x, y) = ((place % side) as f32, (place / side) as f32);
@@ -91,6 +94,12 @@ fn state(side: usize) -> State<Plane<f32>> {
         neighbors: Vec::new(),
         bond_table: Default::default(),
         contacts: Vec::new(),
+        facet_contacts: Vec::new(),
+        block_load: Vec::new(),
+        facet_pairs: Vec::new(),
+        obstacles: Vec::new(),
+        movers: Vec::new(),
+        obstacle_pairs: Vec::new(),
         kept_neighbors: Vec::new(),
         kept_gradients: Vec::new(),
         contact_pairs: Vec::new(),

@@ -1,0 +1,16 @@
+// Coulomb friction with an elastic slip. Twin: stick in src/facet.rs
+#import tensor
+
+struct Stick {
+    slip: Vec,
+    heat: real,
+}
+
+fn stick(slip: Vec, stiffness: real, limit: real) -> Stick {
+    let length = sqrt(inner(slip, slip));
+    let most = limit / stiffness;
+    if length <= most {
+        return Stick(slip, 0.0);
+    }
+    return Stick(slip * (most / length), 0.5 * stiffness * (length - most) * (length + most));
+}

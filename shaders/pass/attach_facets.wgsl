@@ -1,0 +1,20 @@
+// Tells each facet the particle that carries it. Twin: src/pass/attach_facets.rs
+#import invocation
+#import params
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> first_facet: array<u32>;
+@group(0) @binding(_) var<storage, read> facets: array<u32>;
+@group(0) @binding(_) var<storage, read_write> facet_owner: array<u32>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let a = index_of(invocation);
+    if a >= params.count || clock.running == 0u {
+        return;
+    }
+    let end = first_facet[a] + facets[a];
+    for (var e = first_facet[a]; e < end; e++) {
+        facet_owner[e] = a;
+    }
+}

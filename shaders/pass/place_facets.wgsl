@@ -1,0 +1,27 @@
+// Moves facets with their particles: x = x_p + F_p (X - X_p), n = F_p^-T N/|F_p^-T N|. Twin: src/pass/place_facets.rs
+#import invocation
+#import params
+#import facet_lever
+
+@group(0) @binding(_) var<storage, read> clock: Clock;
+@group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
+@group(0) @binding(_) var<storage, read> facet_reference_normal: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> facet_displacement: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> facet_move: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> facet_normal: array<Vec>;
+
+@compute @workgroup_size(64)
+fn main(invocation: Invocation) {
+    let e = index_of(invocation);
+    if e >= params.facet_count || clock.running == 0u {
+        return;
+    }
+    let a = facet_owner[e];
+    let gradient = displacement_gradient[a];
+    let moved = displacement[a] + mat_vec(gradient, lever(e));
+    facet_move[e] = moved - facet_displacement[e];
+    facet_displacement[e] = moved;
+    let normal = mat_vec(transpose_mat(adjugate(mat_identity() + gradient)), facet_reference_normal[e]);
+    facet_normal[e] = normal * (1.0 / sqrt(inner(normal, normal)));
+}

@@ -1,0 +1,153 @@
+//! Contact of surfaces through their facets: points of a body's exact surface with a normal and an area, each
+//! carried by the particle beneath it, x = x_p + F_p (X - X_p). Twin: shaders/lib/facet.wgsl
+//!
+//! The distance of facet e from another surface is the mean over that surface's facets f, seen along their normals,
+//!
+//! g_e = sum_f w_ef n_f.(x_e - x_f) / D_e, D_e = sum_f w_ef, w_ef = (1 - r^2/R^2)^3 (n_e.n_f)^2,
+//!
+//! over facets within R that face e. On a flat face all terms are equal, so that g is exact, and the face is
+//! slippery, whatever the lattice beneath it. The energy is (k/2) A_e g^2 s(D_e/D_0) where g < 0; s falls smoothly
+//! from 1 to 0 past the edge of a surface, where few facets are left. Each surface measures the other. The forces
+//! are the exact derivatives, by x and, through the normals n = F^-T N/|F^-T N|, by F: they keep energy, momentum
+//! and angular momentum.
+//!
+//! The form `along_normals` leaves out all but the force along the normals, spread over f by w/D: this is the
+//! smoothed normal gap as it is commonly used. It keeps momentum only.
+
+use crate::state::State;
+use crate::tensor::{Real, Space};
+use serde::{Deserialize, Serialize};
+
+/// How the facets of two bodies, or of a body and an obstacle, touch. Twin: `FacetPair` in `shaders/lib/params.wgsl`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct FacetPair<R> {
+    /// Pressure over depth; 0 where they do not touch.
+    pub stiffness: R,
+    /// Distance R from a facet at which its weight ends; 0 for an obstacle.
+    pub range: R,
+    /// Sum of weights D_0 below which the energy fades.
+    pub full: R,
+    /// Coefficient of friction.
+    pub friction: R,
+}
+
+impl FacetPair<f64> {
+    pub fn map<R: Real>(&self, real: impl Fn(f64) -> R) -> FacetPair<R> {
+        let [stiffness, range, full, friction] = [self.stiffness, self.range, self.full, self.friction].map(real);
+        FacetPair { stiffness, range, full, friction }
+    }
+}
+
+/// Which terms of the force act.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GapForm {
+    /// All: the derivative of the energy.
+    #[default]
+    Potential,
+    /// Those along the normals: neither energy nor angular momentum is kept.
+    AlongNormals,
+}
+
+/// Part of the sum of weights on a flat face below which the energy fades.
+const FULL: f64 = 0.3;
+
+/// D_0 of facets one spacing apart: the continuous sum on a flat face, in part. `range` is in spacings.
+pub fn full_weight(range: f64, dimension: usize) -> f64 {
+    let flat = match dimension {
+        1 => 1.0,
+        2 => 32.0 / 35.0 * range,
+        _ => std::f64::consts::PI * range * range / 4.0,
+    };
+    FULL * flat.max(1.0)
+}
+
+/// Two facets that face each other within range: x_e - x_f, the weight, and its derivatives by x (times x) and by
+/// n_e.n_f.
+pub struct Facing<S: Space> {
+    pub x: S::Vec,
+    pub weight: S::Real,
+    pub by_distance: S::Real,
+    pub by_turn: S::Real,
+}
+
+/// None where f does not matter for e.
+#[inline(always)]
+pub fn facing<S: Space>(state: &State<S>, e: usize, f: usize, range: S::Real) -> Option<Facing<S>> {
+    let (columns, zero, one) = (&state.particles, S::Real::of(0.0), S::Real::of(1.0));
+    let x = facet_separation(state, e, f);
+    let left = one - S::inner(x, x) / (range * range);
+    let turn = S::inner(columns.facet_normal[e], columns.facet_normal[f]);
+    if left <= zero || turn >= zero {
+        return None;
+    }
+    let (square, cube, toward) = (left * left, left * left * left, turn * turn);
+    Some(Facing {
+        x,
+        weight: cube * toward,
+        by_distance: S::Real::of(-6.0) * square * toward / (range * range),
+        by_turn: S::Real::of(2.0) * cube * turn,
+    })
+}
+
+/// x_e - x_f
+#[inline(always)]
+pub fn facet_separation<S: Space>(state: &State<S>, e: usize, f: usize) -> S::Vec {
+    let columns = &state.particles;
+    (columns.facet_reference_position[e] - columns.facet_reference_position[f])
+        + (columns.facet_displacement[e] - columns.facet_displacement[f])
+}
+
+/// Facet e's way from its particle in the reference configuration.
+#[inline(always)]
+pub fn lever<S: Space>(state: &State<S>, e: usize) -> S::Vec {
+    let columns = &state.particles;
+    columns.facet_reference_position[e] - columns.reference_position[columns.facet_owner[e] as usize]
+}
+
+/// s = 3 t^2 - 2 t^3 up to t = 1, and its derivative by t.
+#[inline(always)]
+pub fn fade<R: Real>(t: R) -> (R, R) {
+    let (one, two, three) = (R::of(1.0), R::of(2.0), R::of(3.0));
+    if t >= one {
+        return (one, R::of(0.0));
+    }
+    (t * t * (three - two * t), R::of(6.0) * t * (one - t))
+}
+
+/// Coulomb friction with an elastic slip: the slip that is left of an increased one, the traction's length being
+/// `stiffness` times it and at most `limit`; and the heat, which is the elastic energy of what went.
+#[inline(always)]
+pub fn stick<S: Space>(slip: S::Vec, stiffness: S::Real, limit: S::Real) -> (S::Vec, S::Real) {
+    let length = S::inner(slip, slip).sqrt();
+    let most = limit / stiffness;
+    if length <= most {
+        return (slip, S::Real::of(0.0));
+    }
+    (slip * (most / length), S::Real::of(0.5) * stiffness * (length - most) * (length + most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tensor::{Plane, Tuple};
+
+    #[test]
+    fn fading_is_smooth() {
+        for k in 1..40 {
+            let (t, step) = (k as f64 * 0.03, 1e-7);
+            let difference = (fade(t + step).0 - fade(t - step).0) / (2.0 * step);
+            assert!((fade(t).1 - difference).abs() < 1e-6, "at {t}");
+        }
+        assert_eq!((fade(0.0).0, fade(1.0).0), (0.0, 1.0));
+    }
+
+    #[test]
+    fn slip_beyond_the_limit_turns_into_heat() {
+        let slip = Tuple([3.0, 4.0]);
+        let (left, heat) = stick::<Plane<f64>>(slip, 2.0, 4.0);
+        assert_eq!((left.0, heat), ([1.2, 1.6], 21.0));
+        assert_eq!(stick::<Plane<f64>>(slip, 2.0, 11.0), (slip, 0.0));
+    }
+}

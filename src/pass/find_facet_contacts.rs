@@ -1,0 +1,66 @@
+//! Lists the facets that each facet may touch before the list is made anew: near, facing, and of another body or far
+//! apart in the reference configuration. Twin: shaders/pass/find_facet_contacts.wgsl
+
+use super::Stage;
+use super::find_neighbors::visit_cells;
+use crate::facet::facet_separation;
+use crate::state::{Fault, State};
+use crate::tensor::{Real, Space};
+
+/// Largest n_e.n_f that enters the list: facets that turn may come to face each other while it holds.
+const MOST_TURN: f64 = 0.5;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 || state.clock.rebuild == 0 {
+        return;
+    }
+    let mut contacts = std::mem::take(&mut state.facet_contacts);
+    let mut counts = std::mem::take(&mut state.particles.facet_contact_count);
+    let (total, capacity) = (state.params.facet_count as usize, state.params.facet_capacity as usize);
+    let mut full = false;
+    for (e, count) in counts.iter_mut().enumerate() {
+        let mut found = 0;
+        list_one(state, e, |f| {
+            if found < capacity {
+                contacts[found * total + e] = f;
+            }
+            found += 1;
+        });
+        full |= found > capacity;
+        *count = if found > capacity { 0 } else { found as u32 };
+    }
+    if full {
+        state.clock.fault = Fault::ListFull as u32;
+    }
+    state.facet_contacts = contacts;
+    state.particles.facet_contact_count = counts;
+}
+
+fn list_one<S: Space>(state: &State<S>, e: usize, mut keep: impl FnMut(u32)) {
+    let columns = &state.particles;
+    let reach = state.params.facet_reach;
+    let position = columns.facet_reference_position[e] + columns.facet_displacement[e];
+    visit_cells::<S>(state, position, |b| {
+        if may_touch(state, e, b as usize) {
+            for f in state.facets_of(b as usize) {
+                let x = facet_separation(state, e, f);
+                let turn = S::inner(columns.facet_normal[e], columns.facet_normal[f]);
+                if S::inner(x, x) < reach * reach && turn < S::Real::of(MOST_TURN) {
+                    keep(f as u32);
+                }
+            }
+        }
+        Some(())
+    });
+}
+
+/// Whether the facets of particle b may touch facet e.
+fn may_touch<S: Space>(state: &State<S>, e: usize, b: usize) -> bool {
+    let a = state.particles.facet_owner[e] as usize;
+    if state.facet_pair(a, b).stiffness == S::Real::of(0.0) {
+        return false;
+    }
+    let apart = state.particles.reference_position[a] - state.particles.reference_position[b];
+    let least = state.params.contact_apart;
+    state.body_index(a) != state.body_index(b) || S::inner(apart, apart) > least * least
+}

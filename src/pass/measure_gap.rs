@@ -1,0 +1,132 @@
+//! Distance of each facet from the surface that faces it, and what follows from it: the derivatives of its energy,
+//! and friction. See [`crate::facet`]. Twin: shaders/pass/measure_gap.wgsl
+
+use super::Stage;
+use crate::facet::{FacetPair, facing, fade, stick};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+use rayon::prelude::*;
+
+/// What the pass finds for one facet.
+#[derive(Clone, Copy, Default)]
+struct Contact<R, V> {
+    gap: R,
+    spread: R,
+    pull: R,
+    edge: R,
+    pressure: R,
+    energy: R,
+    slip: V,
+    traction: V,
+    heat: R,
+}
+
+type ContactIn<S> = Contact<<S as Space>::Real, <S as Space>::Vec>;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let total = state.params.facet_count as usize;
+    let mut found = vec![ContactIn::<S>::default(); total];
+    found.par_iter_mut().enumerate().with_min_len(super::GRAIN).for_each(|(e, slot)| {
+        if state.particles.facet_contact_count[e] > 0 {
+            *slot = measure(state, e);
+        }
+    });
+    let friction = state.method.friction;
+    let columns = &mut state.particles;
+    for (e, contact) in found.iter().enumerate() {
+        columns.facet_gap[e] = contact.gap;
+        columns.facet_spread[e] = contact.spread;
+        columns.facet_pull[e] = contact.pull;
+        columns.facet_edge[e] = contact.edge;
+        columns.facet_pressure[e] = contact.pressure;
+        columns.facet_energy[e] = contact.energy;
+        if friction {
+            columns.facet_slip[e] = contact.slip;
+            columns.facet_traction[e] = contact.traction;
+            columns.facet_heat[e] = contact.heat;
+        }
+    }
+}
+
+/// The sums over the other surface: of weights, of weights times distances, and of weights times moves; and the
+/// mean of the pairs' numbers.
+struct Sums<S: Space> {
+    weight: S::Real,
+    distance: S::Real,
+    moved: S::Vec,
+    normal: S::Vec,
+    pair: FacetPair<S::Real>,
+}
+
+fn measure<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
+    let sums = sum(state, e);
+    let (zero, one) = (S::Real::of(0.0), S::Real::of(1.0));
+    let pair = sums.pair;
+    let stiffness = pair.stiffness * state.particles.facet_area[e];
+    let spread = if sums.weight > zero { one / sums.weight } else { zero };
+    let gap = sums.distance * spread;
+    if gap >= zero {
+        return Contact { gap, heat: let_go(state, e, stiffness), ..Contact::default() };
+    }
+    let (whole, slope) = fade(sums.weight / pair.full);
+    let half = S::Real::of(0.5) * stiffness * gap * gap;
+    let force = zero - stiffness * gap * whole;
+    let mut contact = Contact {
+        gap,
+        spread,
+        pull: zero - force * spread,
+        edge: half * slope / pair.full,
+        pressure: force / state.particles.facet_area[e],
+        energy: half * whole,
+        ..Contact::default()
+    };
+    if state.method.friction && pair.friction > zero {
+        rub(state, e, &sums, stiffness, force, &mut contact);
+    }
+    contact
+}
+
+/// Heat of a tangential spring that comes off.
+fn let_go<S: Space>(state: &State<S>, e: usize, stiffness: S::Real) -> S::Real {
+    let slip = state.particles.facet_slip.get(e).copied().unwrap_or_default();
+    S::Real::of(0.5) * stiffness * S::inner(slip, slip)
+}
+
+/// The tangential spring: it grows with the way that the facet slips over the other surface.
+fn rub<S: Space>(state: &State<S>, e: usize, sums: &Sums<S>, stiffness: S::Real, force: S::Real, contact: &mut ContactIn<S>) {
+    let columns = &state.particles;
+    let length = S::inner(sums.normal, sums.normal).sqrt();
+    let normal = sums.normal * (S::Real::of(1.0) / length);
+    let grown = columns.facet_slip[e] + columns.facet_move[e] - sums.moved * contact.spread;
+    let along = grown - normal * S::inner(grown, normal);
+    let (slip, heat) = stick::<S>(along, stiffness, sums.pair.friction * force);
+    contact.slip = slip;
+    contact.heat = heat;
+    contact.traction = slip * (S::Real::of(0.0) - stiffness);
+    contact.energy += S::Real::of(0.5) * stiffness * S::inner(slip, slip);
+}
+
+#[inline(always)]
+fn sum<S: Space>(state: &State<S>, e: usize) -> Sums<S> {
+    let columns = &state.particles;
+    let (total, zero) = (state.params.facet_count as usize, S::Real::of(0.0));
+    let a = columns.facet_owner[e] as usize;
+    let (moved, normal) = (S::Vec::default(), S::Vec::default());
+    let mut sums = Sums::<S> { weight: zero, distance: zero, moved, normal, pair: FacetPair::default() };
+    for k in 0..columns.facet_contact_count[e] as usize {
+        let f = state.facet_contacts[k * total + e] as usize;
+        let pair = state.facet_pair(a, columns.facet_owner[f] as usize);
+        sums.pair = *pair;
+        let Some(facing) = facing(state, e, f, pair.range) else { continue };
+        sums.weight += facing.weight;
+        sums.distance += facing.weight * S::inner(columns.facet_normal[f], facing.x);
+        if state.method.friction {
+            sums.moved += columns.facet_move[f] * facing.weight;
+            sums.normal += columns.facet_normal[f] * facing.weight;
+        }
+    }
+    sums
+}

@@ -1,0 +1,94 @@
+//! Force of other bodies' surfaces on each facet, as the facet that measures a gap and as one that another measures
+//! from, and the derivative of the energy by the deformation gradient of the facet's particle. See [`crate::facet`].
+//! Twin: shaders/pass/press_facets.wgsl
+//!
+//! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
+
+use super::Stage;
+use crate::facet::{Facing, GapForm, facing, lever};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+use rayon::prelude::*;
+
+/// What acts on a facet.
+#[derive(Clone, Copy, Default)]
+struct Load<V, M> {
+    force: V,
+    /// Force along which the present normal would turn.
+    turning: V,
+    /// Derivative of the energy by F, from friction whose point is not the facet's.
+    aside: M,
+}
+
+type LoadIn<S> = Load<<S as Space>::Vec, <S as Space>::Mat>;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut forces = std::mem::take(&mut state.particles.facet_force);
+    let mut moments = std::mem::take(&mut state.particles.facet_moment);
+    let columns = forces.par_iter_mut().zip(&mut moments).enumerate();
+    columns.with_min_len(super::GRAIN).for_each(|(e, (force, moment))| {
+        (*force, *moment) = if state.particles.facet_contact_count[e] > 0 { load(state, e) } else { Default::default() };
+    });
+    state.particles.facet_force = forces;
+    state.particles.facet_moment = moments;
+}
+
+fn load<S: Space>(state: &State<S>, e: usize) -> (S::Vec, S::Mat) {
+    let a = state.particles.facet_owner[e] as usize;
+    let deformation = S::mat_identity() + state.particles.displacement_gradient[a];
+    let inverse = S::adjugate(deformation) * (S::Real::of(1.0) / S::determinant(deformation));
+    let load = sum(state, e, inverse);
+    let normal = state.particles.facet_normal[e];
+    let turning = load.turning - normal * S::inner(load.turning, normal);
+    let moment = S::outer(normal, S::mat_vec(inverse, turning)) - S::outer(load.force, lever(state, e));
+    (load.force, moment + load.aside)
+}
+
+fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
+    let columns = &state.particles;
+    let (total, zero) = (state.params.facet_count as usize, S::Real::of(0.0));
+    let a = columns.facet_owner[e] as usize;
+    let mut load = LoadIn::<S>::default();
+    if state.method.friction {
+        load.force += columns.facet_traction[e];
+    }
+    for k in 0..columns.facet_contact_count[e] as usize {
+        let f = state.facet_contacts[k * total + e] as usize;
+        if columns.facet_pull[e] == zero && columns.facet_pull[f] == zero {
+            continue;
+        }
+        let pair = state.facet_pair(a, columns.facet_owner[f] as usize);
+        let Some(facing) = facing(state, e, f, pair.range) else { continue };
+        press(state, (e, f), &facing, &mut load);
+        if state.method.friction {
+            let pulled = columns.facet_traction[f] * (zero - facing.weight * columns.facet_spread[f]);
+            load.force += pulled;
+            // From facet e to facet f, where the force acts.
+            let way = S::mat_vec(inverse, facing.x);
+            load.aside += S::outer(pulled, way);
+        }
+    }
+    load
+}
+
+/// Adds the force of facet f on e.
+#[inline(always)]
+fn press<S: Space>(state: &State<S>, (e, f): (usize, usize), facing: &Facing<S>, load: &mut LoadIn<S>) {
+    let columns = &state.particles;
+    let (own, other) = (columns.facet_normal[e], columns.facet_normal[f]);
+    let (pull, pulled) = (columns.facet_pull[e], columns.facet_pull[f]);
+    let x = facing.x;
+    // Less the derivatives by the distances along the normals.
+    load.force += own * (pulled * facing.weight) - other * (pull * facing.weight);
+    if state.method.gap == Some(GapForm::AlongNormals) {
+        return;
+    }
+    let along = S::inner(other, x) - columns.facet_gap[e];
+    let along_other = S::Real::of(0.0) - S::inner(own, x) - columns.facet_gap[f];
+    let by_weight = pull * along + columns.facet_edge[e] + pulled * along_other + columns.facet_edge[f];
+    load.force += x * (S::Real::of(0.0) - by_weight * facing.by_distance);
+    load.turning += x * (pulled * facing.weight) - other * (by_weight * facing.by_turn);
+}

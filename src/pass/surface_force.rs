@@ -1,0 +1,36 @@
+//! Adds the acceleration by the facets that a particle carries, and finds the energy and the heat of their contact.
+//! Twin: shaders/pass/surface_force.wgsl
+
+use super::Stage;
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    let mut energies = std::mem::take(&mut state.particles.contact_energy);
+    let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
+    let beside = !state.method.contact.is_none();
+    super::write(&mut energies, |a, energy| {
+        let own = state.facets_of(a).fold(S::Real::of(0.0), |sum, e| sum + state.particles.facet_energy[e]);
+        *energy = if beside { *energy + own } else { own };
+    });
+    super::write(&mut accelerations, |a, acceleration| {
+        let range = state.facets_of(a);
+        if !range.is_empty() {
+            let force = range.fold(S::Vec::default(), |sum, e| sum + state.particles.facet_force[e]);
+            *acceleration += force * (S::Real::of(1.0) / state.mass(a));
+        }
+    });
+    if state.method.friction && !heats.is_empty() {
+        super::write(&mut heats, |a, heat| {
+            let made = state.facets_of(a).fold(S::Real::of(0.0), |sum, e| sum + state.particles.facet_heat[e]);
+            *heat += made / state.mass(a);
+        });
+    }
+    state.particles.acceleration = accelerations;
+    state.particles.contact_energy = energies;
+    state.particles.dissipated_energy = heats;
+}

@@ -1,0 +1,129 @@
+//! Copies of a body on a grid, each a body of its own, known together by the name that was typed.
+
+use super::Body;
+use super::file::{self, File};
+use super::shape::{Coordinates, Shape};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// `count` bodies along each axis, `step` apart.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Copies {
+    pub count: Vec<u32>,
+    pub step: Coordinates,
+}
+
+/// More bodies than this are a slip: the tables of pairs grow with the square.
+const MOST: u64 = 10_000;
+
+impl Copies {
+    /// How far each copy is moved; x runs fastest.
+    fn shifts(&self) -> Result<Vec<DVec3>, String> {
+        let count = |axis: usize| self.count.get(axis).copied().unwrap_or(1);
+        let total: u64 = (0..3).map(|axis| u64::from(count(axis))).product();
+        if total == 0 || total > MOST || self.count.len() > 3 {
+            return Err(format!("copies.count takes up to three numbers whose product is 1 to {MOST}, found {:?}", self.count));
+        }
+        let step = self.step.vector();
+        let grid = (0..count(2)).flat_map(|z| (0..count(1)).flat_map(move |y| (0..count(0)).map(move |x| [x, y, z])));
+        Ok(grid.map(|place| DVec3::from_array(place.map(f64::from)) * step).collect())
+    }
+}
+
+/// Puts copies in the place of the bodies that ask for them. For each body then the index of the one that was typed;
+/// on failure that index too.
+pub(super) fn expand(file: &mut File) -> Result<Vec<usize>, (usize, String)> {
+    let mut typed_at = Vec::new();
+    let mut all = Vec::new();
+    for (k, typed) in std::mem::take(&mut file.body).into_iter().enumerate() {
+        let Some(copies) = &typed.copies else {
+            typed_at.push(k);
+            all.push(typed);
+            continue;
+        };
+        let shifts = copies.shifts().map_err(|message| (k, message))?;
+        for (number, shift) in shifts.into_iter().enumerate() {
+            typed_at.push(k);
+            all.push(copy(&typed, number, shift));
+        }
+    }
+    file.body = all;
+    Ok(typed_at)
+}
+
+fn copy(typed: &file::Body, number: usize, shift: DVec3) -> file::Body {
+    let moved = |point: &Option<Coordinates>| {
+        let start = point.as_ref().map_or(DVec3::ZERO, Coordinates::vector);
+        Some(Coordinates::from((start + shift).to_array()))
+    };
+    file::Body {
+        name: format!("{} {}", typed.name, number + 1),
+        group: Some(typed.name.clone()),
+        shape: typed.shape.moved(shift),
+        anchor: moved(&typed.anchor),
+        spin_center: moved(&typed.spin_center),
+        ..typed.clone()
+    }
+}
+
+/// Indices of the bodies that a word names: one, or all copies.
+pub(super) fn named(bodies: &[Body], word: &str) -> Vec<usize> {
+    (0..bodies.len()).filter(|&k| bodies[k].name == word || bodies[k].group == word).collect()
+}
+
+/// Pairs of bodies that two words name. The same word twice means the body itself, or all copies with each other.
+pub(super) fn pairs(bodies: &[Body], between: &[String; 2]) -> Vec<(usize, usize)> {
+    let (first, second) = (named(bodies, &between[0]), named(bodies, &between[1]));
+    let alike = between[0] == between[1] && first.len() > 1;
+    let all = first.iter().flat_map(|&a| second.iter().map(move |&b| (a, b)));
+    all.filter(|(a, b)| !alike || a < b).collect()
+}
+
+impl Shape {
+    /// The same shape elsewhere.
+    pub fn moved(&self, shift: DVec3) -> Shape {
+        let at = |point: &Coordinates| Coordinates::from((point.vector() + shift).to_array());
+        let all = |parts: &[Shape]| parts.iter().map(|part| part.moved(shift)).collect();
+        let mut shape = self.clone();
+        match &mut shape {
+            Shape::Block { min, max } => (*min, *max) = (at(min), at(max)),
+            Shape::Disc { center, .. }
+            | Shape::Ring { center, .. }
+            | Shape::Sphere { center, .. }
+            | Shape::Cylinder { center, .. }
+            | Shape::Tube { center, .. } => *center = at(center),
+            Shape::Polygon { points } => *points = points.iter().map(at).collect(),
+            Shape::Union { of } | Shape::Intersection { of } => *of = all(of),
+            Shape::Cut { from, remove } => (**from, *remove) = (from.moved(shift), all(remove)),
+        }
+        shape
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn copies_stand_on_a_grid() {
+        let copies = Copies { count: vec![2, 3], step: [2.5, 4.0].into() };
+        let shifts = copies.shifts().unwrap();
+        assert_eq!((shifts.len(), shifts[1], shifts[5]), (6, DVec3::new(2.5, 0.0, 0.0), DVec3::new(2.5, 8.0, 0.0)));
+        assert!(Copies { count: vec![0], ..copies.clone() }.shifts().is_err());
+        assert!(Copies { count: vec![200, 200], ..copies }.shifts().is_err());
+    }
+
+    #[test]
+    fn a_shape_moves_with_all_its_parts() {
+        let shape: Shape = toml::from_str(
+            "cut = { from = { block = { min = [0, 0], max = [4, 4] } }, remove = [{ disc = { center = [2, 2], radius = 1 } }] }",
+        )
+        .unwrap();
+        let moved = shape.moved(DVec3::new(10.0, -3.0, 0.0));
+        for point in [DVec3::new(0.5, 0.5, 0.0), DVec3::new(2.0, 2.0, 0.0), DVec3::new(5.0, 1.0, 0.0)] {
+            let there = point + DVec3::new(10.0, -3.0, 0.0);
+            assert!((shape.distance(point, 2) - moved.distance(there, 2)).abs() < 1e-12);
+        }
+    }
+}
