@@ -18,8 +18,8 @@
 @group(0) @binding(_) var<storage, read_write> facet_contacts: array<u32>;
 @group(0) @binding(_) var<storage, read_write> facet_contact_count: array<u32>;
 
-// Largest n_e.n_f that enters the list: facets that turn may come to face each other while it holds.
-const MOST_TURN: real = 0.5;
+// Largest n_e.n_f that enters the list: facets that stand across each other hardly touch.
+const MOST_TURN: real = -0.05;
 
 // The facet whose contacts are sought.
 struct Search {

@@ -7,8 +7,8 @@ use crate::facet::facet_separation;
 use crate::state::{Fault, State};
 use crate::tensor::{Real, Space};
 
-/// Largest n_e.n_f that enters the list: facets that turn may come to face each other while it holds.
-const MOST_TURN: f64 = 0.5;
+/// Largest n_e.n_f that enters the list: facets that stand across each other hardly touch.
+const MOST_TURN: f64 = -0.05;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {

@@ -200,18 +200,25 @@ impl Scene {
         if q > 0.0 { (2.0 * face) as u32 + 16 } else { 0 }
     }
 
-    /// Square of the rate that the stiffest contact by surfaces gives a particle: k A/m of a face of one spacing,
-    /// a quarter of it, so that a step at cfl 1 stays below the limit of 2 over the frequency.
+    /// Square of the rate that the stiffest contact by surfaces gives a particle: the sum of k A over its mass, a
+    /// quarter of it, so that a step at cfl 1 stays below the limit of 2 over the frequency. A facet beside its particle
+    /// moves more easily than the particle, by the square of the way.
     fn contact_rate(&self) -> f64 {
-        let pairs = self.facet_pairs.iter().map(|row| (row, 2.0));
-        let rate = |body: &super::Body, stiffness: f64| stiffness / (body.density * body.spacing);
-        let mut largest: f64 = 0.0;
-        for (k, body) in self.bodies.iter().enumerate() {
-            let own = pairs.clone().map(|(row, sides)| sides * row[k].stiffness);
-            let against = self.obstacles.iter().map(|obstacle| obstacle.pairs[k].stiffness);
-            largest = own.chain(against).fold(largest, |most, stiffness| most.max(rate(body, stiffness)));
+        let stiffness = |body: usize| {
+            // Either surface measures the other.
+            let own = self.facet_pairs.iter().map(|row| 2.0 * row[body].stiffness);
+            own.chain(self.obstacles.iter().map(|obstacle| obstacle.pairs[body].stiffness)).fold(0.0, f64::max)
+        };
+        let stiffness: Vec<f64> = (0..self.bodies.len()).map(stiffness).collect();
+        let mut rates = vec![0.0; self.particles.len()];
+        for facet in &self.facets {
+            let particle = &self.particles[facet.owner as usize];
+            let body = &self.bodies[particle.body as usize];
+            let way = facet.piece.position.distance_squared(particle.position) / (body.spacing * body.spacing);
+            let pull = stiffness[particle.body as usize] * facet.piece.area * (1.0 + 2.0 * way);
+            rates[facet.owner as usize] += pull / (particle.volume * body.density);
         }
-        0.25 * largest
+        0.25 * rates.into_iter().fold(0.0, f64::max)
     }
 
     /// Entries that a list of contacts can hold: the half space within reach, crowded.
