@@ -28,10 +28,10 @@ macro_rules! library {
 
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, density, descent,
-        displacement_difference, inverse, invocation, kernel, linear_gradient, mass, mirror, moving_velocity, pair,
+        displacement_difference, hourglass_stiffness, inverse, invocation, kernel, linear_gradient, mass, memory, mirror, moving_velocity, pair,
         pair_velocity, params, real, separation, shape, shape_columns, shape_node, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;
-    material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
+    material: elastic, hardening, j2, maxwell, neo_hookean, radial_return, st_venant_kirchhoff, volumetric_stress;
 }
 
 /// Every word that `#if` may ask for.
@@ -52,6 +52,8 @@ const FLAGS: &[&str] = &[
     "contact",
     "listed_again",
     "memory",
+    "plastic",
+    "quasi_static",
     "shear",
     "many_bodies",
     "coupling",
