@@ -164,9 +164,12 @@ fields! {
     volumetric_strain: VolumetricStrain, Real, NONE, true, "reference density over density, minus 1";
     deviatoric_stress: DeviatoricStress, Sym, STRESS, true, "stress less its mean";
     displacement_gradient: DisplacementGradient, Mat, NONE, true, "H = F - 1: derivative of the displacement by the reference position";
-    viscous_strain: ViscousStrain, Sym, NONE, true, "C_i - 1 of a Maxwell body, its inelastic Cauchy-Green tensor less the unit tensor";
+    inelastic_strain: InelasticStrain, Sym, NONE, true, "C_i - 1 of a law that remembers: its inelastic Cauchy-Green tensor less the unit tensor";
+    equivalent_plastic_strain: EquivalentPlasticStrain, Real, NONE, true, "integral of the plastic strain rate sqrt(2/3 d_p:d_p)";
+    equilibrium_inelastic_strain: EquilibriumInelasticStrain, Sym, NONE, true, "inelastic strain in equilibrium at the load step before";
+    equilibrium_plastic_strain: EquilibriumPlasticStrain, Real, NONE, true, "equivalent plastic strain in equilibrium at the load step before";
     internal_energy: InternalEnergy, Real, SPECIFIC_ENERGY, true, "internal energy per mass";
-    dissipated_energy: DissipatedEnergy, Real, SPECIFIC_ENERGY, true, "energy per mass that viscosity has turned into heat";
+    dissipated_energy: DissipatedEnergy, Real, SPECIFIC_ENERGY, true, "energy per mass that viscosity has turned into heat, and plastic work";
     smoothed_velocity: SmoothedVelocity, Vec, VELOCITY, false, "velocity averaged over neighbours (XSPH)";
     velocity_gradient: VelocityGradient, Mat, RATE, true, "dv_i/dx_j";
     correction: Correction, Mat, NONE, false, "inverse of the first moment of the kernel gradient";

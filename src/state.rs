@@ -83,9 +83,13 @@ impl Method {
     pub fn dissipated_power(&self) -> bool {
         self.dissipated_energy && self.viscosity
     }
-    /// Some law remembers more than the deformation.
+    /// Stress follows from the deformation gradient and from what some law remembers beside it.
     pub fn memory(&self) -> bool {
-        self.laws.iter().any(|law| law.has_memory())
+        self.finite_strain() && self.laws.iter().any(|law| law.has_memory())
+    }
+    /// Some law yields.
+    pub fn plastic(&self) -> bool {
+        self.laws.contains(&Law::J2)
     }
     /// The words that `#if` knows in the shaders.
     pub fn flags(&self) -> Vec<&'static str> {
@@ -111,9 +115,10 @@ impl Method {
             ("along_normals", self.gap == Some(GapForm::AlongNormals)),
             ("obstacles", self.obstacles),
             ("friction", self.friction),
-            ("sought", self.quasi_static.is_some()),
             ("listed_again", self.listed_again()),
             ("memory", self.memory()),
+            ("plastic", self.plastic()),
+            ("quasi_static", self.quasi_static.is_some()),
             ("shear", eulerian && self.shear),
             ("many_bodies", self.many_bodies),
             ("coupling", self.coupling),
@@ -226,6 +231,11 @@ pub struct Body<R> {
     pub youngs_modulus: R,
     /// Rate at which a Maxwell body relaxes, shear modulus over viscosity; 0 for all others.
     pub relaxation: R,
+    /// Yield stress of a J2 body before it hardens; 0 for all others.
+    pub yield_stress: R,
+    /// What hardening adds to it: coefficient times the equivalent plastic strain to the power of the exponent.
+    pub hardening: R,
+    pub hardening_exponent: R,
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,

@@ -126,7 +126,7 @@ fn all_flags() -> BTreeSet<&'static str> {
             kind,
             corrected_kernel,
             integrator: lithosph::scene::file::Integrator::Rk2,
-            laws: vec![Law::NeoHookean, Law::Maxwell],
+            laws: vec![Law::NeoHookean, Law::Maxwell, Law::J2],
             hourglass: true,
             gradient: if dimension == 3 { Gradient::Quadratic } else { Gradient::Adjoint },
             quasi_static: Some(Descent::Fire),

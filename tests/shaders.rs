@@ -82,6 +82,7 @@ fn random_method(random: &mut Random) -> Method {
     let symmetry = random.coin();
     let viscosity = random.coin();
     let xsph = random.coin();
+    let plastic = random.coin();
     Method {
         dimension: 1 + random.below(3),
         kind: Kind::Eulerian,
@@ -91,14 +92,14 @@ fn random_method(random: &mut Random) -> Method {
         obstacles: false,
         friction: false,
         quasi_static: None,
-        laws: vec![Law::Elastic],
+        laws: if plastic { vec![Law::Elastic, Law::J2] } else { vec![Law::Elastic] },
         hourglass: false,
         bond_table: false,
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],
-        integrator: [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)],
+        integrator: if plastic { Leapfrog } else { [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)] },
         density: [Density::Continuity, Density::Summation][random.below(2)],
         gradient: [Gradient::Plain, Gradient::Corrected, Gradient::Adjoint][random.below(3)],
-        shear: random.coin(),
+        shear: plastic || random.coin(),
         many_bodies,
         coupling: many_bodies && random.coin(),
         constraints: random.coin(),
@@ -110,15 +111,15 @@ fn random_method(random: &mut Random) -> Method {
         velocity_filter: !xsph && random.coin(),
         artificial_stress: [None, Some(ArtificialForm::Scalar), Some(ArtificialForm::Principal)][random.below(3)],
         internal_energy: random.coin(),
-        dissipated_energy: viscosity && random.coin(),
+        dissipated_energy: (viscosity || plastic) && random.coin(),
         compensated: random.coin(),
     }
 }
 
 /// The same in the Total Lagrangian formulation, as far as a scene of it can go.
 fn random_lagrangian(random: &mut Random) -> Method {
-    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
-    let chosen = 1 + random.below(7);
+    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
+    let chosen = 1 + random.below(15);
     let laws: Vec<Law> = all.into_iter().enumerate().filter(|(k, _)| chosen >> k & 1 == 1).map(|(_, law)| law).collect();
     let memory = laws.iter().any(|law| law.has_memory());
     let eulerian = random_method(random);
@@ -143,7 +144,10 @@ fn random_lagrangian(random: &mut Random) -> Method {
 
 /// The same by corrected kernels, each of its combinations of options.
 fn random_corrected(random: &mut Random) -> Method {
-    let lagrangian = random_lagrangian(random);
+    let mut lagrangian = random_lagrangian(random);
+    while lagrangian.plastic() {
+        lagrangian = random_lagrangian(random);
+    }
     let (configuration, deformation) = [
         (Configuration::Current, Deformation::Evolved),
         (Configuration::Current, Deformation::Reference),

@@ -60,6 +60,9 @@ struct Body {
     shear_modulus: real,
     youngs_modulus: real,
     relaxation: real,
+    yield_stress: real,
+    hardening: real,
+    hardening_exponent: real,
     sound_speed: real,
     smoothing_length: real,
 }

@@ -6,6 +6,7 @@
 // Twin: src/material/maxwell.rs
 #import params
 #import strain
+#import memory
 #import volumetric_stress
 
 // A tensor of space without symmetry, laid out as `Whole`.
@@ -21,6 +22,24 @@ fn mixed_trace(m: Mixed) -> real {
 // tr (A B)
 fn mixed_inner(a: Mixed, b: Mixed) -> real {
     return trace(mat_mat(a.within, b.within)) + LACKING * a.across * b.across;
+}
+
+// A - tr A/3
+fn mixed_deviator(m: Mixed) -> Mixed {
+    let third = mixed_trace(m) * (1.0 / 3.0);
+    return Mixed(m.within - mat_of_sym(diagonal(third)), m.across - third);
+}
+
+fn mixed_determinant(m: Mixed) -> real {
+#if line
+    return determinant_mat(m.within) * m.across * m.across;
+#endif
+#if plane
+    return determinant_mat(m.within) * m.across;
+#endif
+#if solid
+    return determinant_mat(m.within);
+#endif
 }
 
 // C_i - 1 with the components that det C_i = 1 asks for.
@@ -59,8 +78,12 @@ fn first_piola_maxwell(body: Body, h: Mat, memory: Sym) -> Mat {
 }
 
 // C_i - 1 after a step that ends at H: the unimodular part of C_i + step mu/eta C', (16).
-fn relax_maxwell(body: Body, h: Mat, memory: Sym, step: real) -> Sym {
-    let weight = step * body.relaxation;
+fn relax_maxwell(body: Body, h: Mat, memory: Memory, step: real) -> Memory {
+    return Memory(relaxed(h, memory.strain, step * body.relaxation), memory.plastic);
+}
+
+// The unimodular part of C_i + weight C', less 1.
+fn relaxed(h: Mat, memory: Sym, weight: real) -> Sym {
     let total = unimodular_strain(h);
     let viscous = whole(memory);
     let share = 1.0 / (1.0 + weight);

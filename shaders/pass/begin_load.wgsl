@@ -1,5 +1,6 @@
 // Begins a load step: what is held moves by the integral of its prescribed velocity over the load step, what is
-// free goes on as far as between the last two equilibria, and all velocities are set to zero.
+// free goes on as far as between the last two equilibria, and all velocities are set to zero. What plastic bodies
+// remember of the load step before is settled.
 // Twin: src/pass/begin_load.rs
 #import invocation
 #import course_integral
@@ -13,6 +14,12 @@
 @group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
 #if compensated
 @group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
+#endif
+#if plastic
+@group(0) @binding(_) var<storage, read> inelastic_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read> equivalent_plastic_strain: array<real>;
+@group(0) @binding(_) var<storage, read_write> equilibrium_inelastic_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read_write> equilibrium_plastic_strain: array<real>;
 #endif
 #if constraints
 @group(0) @binding(_) var<storage, read> constraint: array<u32>;
@@ -35,6 +42,10 @@ fn main(invocation: Invocation) {
     displacement[a] = before + increment;
 #endif
     velocity[a] = Vec();
+#if plastic
+    equilibrium_inelastic_strain[a] = inelastic_strain[a];
+    equilibrium_plastic_strain[a] = equivalent_plastic_strain[a];
+#endif
 }
 
 // The last increment of what is free, and the prescribed one of what is held.

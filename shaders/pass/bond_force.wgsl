@@ -6,6 +6,7 @@
 #import invocation
 #if hourglass
 #import displacement_difference
+#import hourglass_stiffness
 #else
 #import bond
 #endif
@@ -15,6 +16,13 @@
 @group(0) @binding(_) var<storage, read> reference_volume: array<real>;
 #if hourglass
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
+#if plastic
+#if quasi_static
+@group(0) @binding(_) var<storage, read> equilibrium_plastic_strain: array<real>;
+#else
+@group(0) @binding(_) var<storage, read> equivalent_plastic_strain: array<real>;
+#endif
+#endif
 #endif
 @group(0) @binding(_) var<storage, read> bond_stress: array<Mat>;
 #if quadratic_gradient
@@ -37,8 +45,7 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     let center = reference_position[a];
 #if hourglass
     let displacement_a = displacement[a];
-    // Bonds join particles of one body, so both ends have the same stiffness.
-    let stiffness = 2.0 * params.hourglass * own_body.youngs_modulus;
+    let stiffness = hourglass_stiffness(a, own_body);
 #endif
     let count = neighbor_count[a];
     // Sum of the weights alone: what a's own stress is multiplied with.
@@ -55,7 +62,13 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
         others += tri_sym(difference, sym_scale(products(bond.x), -weight));
 #endif
 #if hourglass
-        others -= displacement_difference(displacement_a, bond) * (stiffness * weight);
+#if plastic
+        // Bonds join particles of one body.
+        let both = stiffness + hourglass_stiffness(bond.b, own_body);
+#else
+        let both = 2.0 * stiffness;
+#endif
+        others -= displacement_difference(displacement_a, bond) * (both * weight);
 #endif
     }
     return mat_vec(bond_stress[a], own) + others;

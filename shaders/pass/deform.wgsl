@@ -3,6 +3,9 @@
 #import invocation
 #import linear_gradient
 #import laws
+#if hourglass
+#import hourglass_stiffness
+#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -12,7 +15,14 @@
 @group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
 #endif
 #if memory
-@group(0) @binding(_) var<storage, read_write> viscous_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read_write> inelastic_strain: array<Sym>;
+#if plastic
+@group(0) @binding(_) var<storage, read_write> equivalent_plastic_strain: array<real>;
+#if quasi_static
+@group(0) @binding(_) var<storage, read> equilibrium_inelastic_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read> equilibrium_plastic_strain: array<real>;
+#endif
+#endif
 #if dissipated_energy
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 #endif
@@ -52,7 +62,7 @@ fn main(invocation: Invocation) {
     let corrected_stress = corrected(a, stress);
 #endif
 #if hourglass
-    bond_stress[a] = corrected_stress - linear * (params.hourglass * body_of(a).youngs_modulus);
+    bond_stress[a] = corrected_stress - linear * hourglass_stiffness(a, body_of(a));
 #else
     bond_stress[a] = corrected_stress;
 #endif
@@ -79,18 +89,35 @@ fn sum_products(a: u32, row: u32) -> Tri {
 // Takes what the law remembers to the end of the step, at the new H. Before the first step the clock's is 0.
 fn relax_to(a: u32, gradient: Mat) {
     let own = body_of(a);
-    let old = viscous_strain[a];
+    let old = remembered(a);
     let memory = relax(own, gradient, old, clock.step);
-    viscous_strain[a] = memory;
+    inelastic_strain[a] = memory.strain;
+#if plastic
+    equivalent_plastic_strain[a] = memory.plastic;
+#endif
 #if dissipated_energy
-    dissipated_energy[a] += dissipated(own, displacement_gradient[a], old, gradient, memory) * (1.0 / own.density);
+    dissipated_energy[a] += dissipated(own, displacement_gradient[a], old.strain, gradient, memory.strain) * (1.0 / own.density);
+#endif
+}
+
+// What the law remembers from before the step. In a descent to equilibrium, which is no motion in time, every step
+// begins at the last equilibrium.
+fn remembered(a: u32) -> Memory {
+#if plastic
+#if quasi_static
+    return Memory(equilibrium_inelastic_strain[a], equilibrium_plastic_strain[a]);
+#else
+    return Memory(inelastic_strain[a], equivalent_plastic_strain[a]);
+#endif
+#else
+    return Memory(inelastic_strain[a], 0.0);
 #endif
 }
 #endif
 
 fn stress_of(a: u32, gradient: Mat) -> Mat {
 #if memory
-    return first_piola(body_of(a), gradient, viscous_strain[a]);
+    return first_piola(body_of(a), gradient, inelastic_strain[a]);
 #else
     return first_piola(body_of(a), gradient, Sym());
 #endif

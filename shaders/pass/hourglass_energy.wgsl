@@ -2,6 +2,7 @@
 // the linear H. Twin: src/pass/hourglass_energy.rs
 #import invocation
 #import linear_gradient
+#import hourglass_stiffness
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -9,6 +10,13 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 #if correct_rate
 @group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
+#endif
+#if plastic
+#if quasi_static
+@group(0) @binding(_) var<storage, read> equilibrium_plastic_strain: array<real>;
+#else
+@group(0) @binding(_) var<storage, read> equivalent_plastic_strain: array<real>;
+#endif
 #endif
 @group(0) @binding(_) var<storage, read_write> hourglass_energy: array<real>;
 
@@ -30,5 +38,5 @@ fn main(invocation: Invocation) {
         let stray = displacement_difference(displacement_a, bond) + mat_vec(gradient, bond.x);
         sum += inner(stray, stray) * (-bond.gradient * reference_volume[bond.b]);
     }
-    hourglass_energy[a] = 0.5 * params.hourglass * own_body.youngs_modulus * reference_volume[a] * sum;
+    hourglass_energy[a] = 0.5 * hourglass_stiffness(a, own_body) * reference_volume[a] * sum;
 }

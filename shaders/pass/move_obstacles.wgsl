@@ -35,7 +35,7 @@ fn prescribe(k: u32) {
 #if constraints
     if movers[k].condition != 0u {
         let condition = constraints[movers[k].condition - 1u];
-#if sought
+#if quasi_static
         let time = clock.start + clock.duration;
 #else
         let time = clock.start + (clock.elapsed + clock.step);

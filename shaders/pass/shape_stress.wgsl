@@ -9,7 +9,7 @@
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
 #if memory
-@group(0) @binding(_) var<storage, read_write> viscous_strain: array<Sym>;
+@group(0) @binding(_) var<storage, read_write> inelastic_strain: array<Sym>;
 #endif
 #if current
 @group(0) @binding(_) var<storage, read_write> volumetric_strain: array<real>;
@@ -25,8 +25,8 @@ fn main(invocation: Invocation) {
     let own = body_of(a);
     let gradient = displacement_gradient[a];
 #if memory
-    let memory = relax(own, gradient, viscous_strain[a], clock.step);
-    viscous_strain[a] = memory;
+    let memory = relax(own, gradient, Memory(inelastic_strain[a], 0.0), clock.step).strain;
+    inelastic_strain[a] = memory;
     let stress = first_piola(own, gradient, memory);
 #else
     let stress = first_piola(own, gradient, Sym());

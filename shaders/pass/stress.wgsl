@@ -8,6 +8,9 @@
 #import body
 #import elastic
 #endif
+#if plastic
+#import radial_return
+#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
@@ -16,6 +19,18 @@
 #endif
 #if continuity
 @group(0) @binding(_) var<storage, read_write> volumetric_strain: array<real>;
+#else
+#if plastic
+#if dissipated_energy
+@group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
+#endif
+#endif
+#endif
+#if plastic
+@group(0) @binding(_) var<storage, read_write> equivalent_plastic_strain: array<real>;
+#if dissipated_energy
+@group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
+#endif
 #endif
 
 @compute @workgroup_size(64)
@@ -30,6 +45,9 @@ fn main(invocation: Invocation) {
     let rotated = rotate(sym_add(deviatoric_stress[a], half), skew_part(gradient) * clock.step);
     deviatoric_stress[a] = sym_add(rotated, half);
 #endif
+#if plastic
+    yield_to(a);
+#endif
 #if continuity
     // Crank-Nicolson of J' = J tr L, written for J - 1 so that f32 keeps small strains.
     let growth = trace(gradient) * clock.step;
@@ -37,6 +55,19 @@ fn main(invocation: Invocation) {
     volumetric_strain[a] = strain + (1.0 + strain) * growth / (1.0 - 0.5 * growth);
 #endif
 }
+
+#if plastic
+// Returns stress to the yield surface.
+fn yield_to(a: u32) {
+    let own = body_of(a);
+    let result = yielded(own, deviatoric_stress[a], equivalent_plastic_strain[a]);
+    deviatoric_stress[a] = result.deviator;
+    equivalent_plastic_strain[a] += result.growth;
+#if dissipated_energy
+    dissipated_energy[a] += result.work * ((1.0 + volumetric_strain[a]) / own.density);
+#endif
+}
+#endif
 
 // The plain gradient is divided by the density of the step's start; here by that of its middle, without which
 // leapfrog is of first order where strains are finite.

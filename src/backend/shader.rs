@@ -28,11 +28,11 @@ macro_rules! library {
 
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
-        descent, displacement_difference, facet, facet_lever, facet_pair, half_kick, inverse, invocation, kernel,
-        linear_gradient, mass, mirror, moving_velocity, obstacle, pair,
-        pair_velocity, params, real, separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
+        descent, displacement_difference, facet, facet_lever, facet_pair, half_kick, hourglass_stiffness, inverse, invocation,
+        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, pair, pair_velocity, params, real,
+        separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;
-    material: elastic, maxwell, neo_hookean, st_venant_kirchhoff, volumetric_stress;
+    material: elastic, hardening, j2, maxwell, neo_hookean, radial_return, st_venant_kirchhoff, volumetric_stress;
 }
 
 /// Every word that `#if` may ask for.
@@ -56,9 +56,10 @@ const FLAGS: &[&str] = &[
     "along_normals",
     "obstacles",
     "friction",
-    "sought",
     "listed_again",
     "memory",
+    "plastic",
+    "quasi_static",
     "shear",
     "many_bodies",
     "coupling",

@@ -12,20 +12,33 @@ use crate::tensor::{Real, Space};
 
 /// A tensor of space without symmetry, laid out as [`Whole`].
 #[derive(Clone, Copy)]
-struct Mixed<S: Space> {
-    within: S::Mat,
-    across: S::Real,
+pub(super) struct Mixed<S: Space> {
+    pub within: S::Mat,
+    pub across: S::Real,
 }
 
 impl<S: Space> Mixed<S> {
     #[inline(always)]
-    fn trace(self) -> S::Real {
+    pub fn trace(self) -> S::Real {
         S::trace(self.within) + lacking::<S>() * self.across
     }
     /// tr (A B)
     #[inline(always)]
-    fn inner(self, other: Self) -> S::Real {
+    pub fn inner(self, other: Self) -> S::Real {
         S::trace(S::mat_mat(self.within, other.within)) + lacking::<S>() * self.across * other.across
+    }
+    /// A - tr A/3
+    pub fn deviator(self) -> Self {
+        let third = self.trace() * S::Real::of(1.0 / 3.0);
+        Self { within: self.within - S::mat_of_sym(S::diagonal(third)), across: self.across - third }
+    }
+    pub fn determinant(self) -> S::Real {
+        let across = match S::DIMENSION {
+            1 => self.across * self.across,
+            2 => self.across,
+            _ => S::Real::of(1.0),
+        };
+        S::determinant(self.within) * across
     }
 }
 
@@ -46,7 +59,7 @@ pub fn whole<S: Space>(memory: S::Sym) -> Whole<S> {
 
 /// (A - B) (1 + V)^-1 of the strains A, B and V.
 #[inline(always)]
-fn over<S: Space>(a: Whole<S>, b: Whole<S>, v: Whole<S>) -> Mixed<S> {
+pub(super) fn over<S: Space>(a: Whole<S>, b: Whole<S>, v: Whole<S>) -> Mixed<S> {
     let inverse = inverse_of_unit_and::<S>(S::mat_of_sym(v.within));
     Mixed {
         within: S::mat_mat(S::mat_of_sym(a.within - b.within), inverse),
@@ -76,10 +89,17 @@ pub fn stored_energy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) 
 }
 
 /// C_i - 1 after a step that ends at H: the unimodular part of C_i + step mu/eta C', (16), implicit and without
-/// iteration. Over (1 + step mu/eta) the sum differs from 1 by the weighted mean of the strains.
+/// iteration.
 #[inline(always)]
 pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym, step: S::Real) -> S::Sym {
-    let (one, weight) = (S::Real::of(1.0), step * body.relaxation);
+    relaxed::<S>(h, memory, step * body.relaxation)
+}
+
+/// The unimodular part of C_i + weight C', less 1. Over (1 + weight) the sum differs from 1 by the weighted mean of
+/// the strains.
+#[inline(always)]
+pub(super) fn relaxed<S: Space>(h: S::Mat, memory: S::Sym, weight: S::Real) -> S::Sym {
+    let one = S::Real::of(1.0);
     let (total, viscous, share) = (unimodular_strain::<S>(h), whole::<S>(memory), one / (one + weight));
     let mean = (viscous.within + total.within * weight) * share;
     let across = (viscous.across + total.across * weight) * share;

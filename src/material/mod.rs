@@ -4,6 +4,8 @@
 //! In the Total Lagrangian: first Piola-Kirchhoff stress from H = F - 1, written for small H in f32.
 //! Twin: shaders/material/
 
+pub mod hardening;
+pub mod j2;
 pub mod maxwell;
 pub mod neo_hookean;
 pub mod st_venant_kirchhoff;
@@ -28,10 +30,15 @@ pub enum Law {
     NeoHookean,
     /// Maxwell body of Simo & Miehe 1992: Shutov & Klyuchantsev 2019 (14) to (16).
     Maxwell,
+    /// Metal that flows where the Mises stress reaches the yield stress.
+    J2,
 }
 
+/// What a law remembers: the inelastic strain C_i - 1, and the equivalent plastic strain.
+pub type Memory<S> = (<S as Space>::Sym, <S as Space>::Real);
+
 impl Law {
-    pub const ALL: &'static [Law] = &[Law::Elastic, Law::Fluid, Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    pub const ALL: &'static [Law] = &[Law::Elastic, Law::Fluid, Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
     pub fn about(self) -> &'static str {
         match self {
             Law::Elastic => "linear equation of state and hypoelastic deviator, Eulerian: the default",
@@ -39,15 +46,22 @@ impl Law {
             Law::StVenantKirchhoff => "stress linear in Green's strain: large rotations, small strains",
             Law::NeoHookean => "neo-Hookean deviator, volumetric part of Hartmann & Neff: large strains",
             Law::Maxwell => "finite viscoelasticity of Simo & Miehe: neo-Hookean, and relaxes by `viscosity`",
+            Law::J2 => {
+                "metal plasticity: flows where the Mises stress reaches `yield_stress`, which may harden; in both formulations"
+            }
         }
     }
     /// Gives stress from the deformation gradient.
     pub fn is_finite_strain(self) -> bool {
         !matches!(self, Law::Elastic | Law::Fluid)
     }
+    /// Gives stress from rates.
+    pub fn is_hypoelastic(self) -> bool {
+        matches!(self, Law::Elastic | Law::Fluid | Law::J2)
+    }
     /// Stress depends on more than the deformation.
     pub fn has_memory(self) -> bool {
-        self == Law::Maxwell
+        matches!(self, Law::Maxwell | Law::J2)
     }
     /// Word in scenes, and stem of the law's files.
     pub fn word(self) -> &'static str {
@@ -57,41 +71,47 @@ impl Law {
             Law::StVenantKirchhoff => "st_venant_kirchhoff",
             Law::NeoHookean => "neo_hookean",
             Law::Maxwell => "maxwell",
+            Law::J2 => "j2",
         }
     }
 }
 
 const NEO_HOOKEAN: u32 = Law::NeoHookean as u32;
 const MAXWELL: u32 = Law::Maxwell as u32;
+const J2: u32 = Law::J2 as u32;
 
-/// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the viscous strain C_i - 1 of a law that
-/// remembers. This and the next two come to a shader as `src/backend/shader/laws.rs` writes them.
+/// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the inelastic strain C_i - 1 of a law
+/// that remembers. This and the next two come to a shader as `src/backend/shader/laws.rs` writes them.
 #[inline(always)]
 pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Mat {
     match body.law {
         NEO_HOOKEAN => neo_hookean::first_piola::<S>(body, h),
-        MAXWELL => maxwell::first_piola::<S>(body, h, memory),
+        MAXWELL | J2 => maxwell::first_piola::<S>(body, h, memory),
         _ => st_venant_kirchhoff::first_piola::<S>(body, h),
     }
 }
 
 /// Memory after a step that ends at the deformation 1 + H.
 #[inline(always)]
-pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym, step: S::Real) -> S::Sym {
-    if body.law == MAXWELL { maxwell::relax::<S>(body, h, memory, step) } else { memory }
+pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>, step: S::Real) -> Memory<S> {
+    match body.law {
+        MAXWELL => (maxwell::relax::<S>(body, h, memory.0, step), memory.1),
+        J2 => j2::relax::<S>(body, h, memory),
+        _ => memory,
+    }
 }
 
-/// Heat of one step per reference volume, from H and memory before and after it.
+/// Heat of one step, plastic work included, per reference volume, from H and memory before and after it.
 #[inline(always)]
 pub fn dissipated<S: Space>(body: &Body<S::Real>, before: (S::Mat, S::Sym), after: (S::Mat, S::Sym)) -> S::Real {
-    if body.law == MAXWELL { maxwell::dissipated::<S>(body, before, after) } else { S::Real::of(0.0) }
+    if body.law == MAXWELL || body.law == J2 { maxwell::dissipated::<S>(body, before, after) } else { S::Real::of(0.0) }
 }
 
 /// Elastic energy per reference volume of the deformation 1 + H.
 pub fn stored_energy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Real {
     match body.law {
         NEO_HOOKEAN => neo_hookean::stored_energy::<S>(body, h),
-        MAXWELL => maxwell::stored_energy::<S>(body, h, memory),
+        MAXWELL | J2 => maxwell::stored_energy::<S>(body, h, memory),
         _ => st_venant_kirchhoff::stored_energy::<S>(body, h),
     }
 }

@@ -26,7 +26,7 @@ impl Deformation {
                 gradient[Solid::<f64>::mat_index(row, column)] = h[column * stride + row];
             }
         }
-        let memory = in_space(moment.row(Field::ViscousStrain, i));
+        let memory = in_space(moment.row(Field::InelasticStrain, i));
         Self { body: scene.bodies[scene.particles[i].body as usize].numbers(), gradient, memory }
     }
 

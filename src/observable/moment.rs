@@ -30,6 +30,7 @@ const QUANTITIES: &[(&str, usize, &[Field])] = &[
     ("volumetric_strain", 1, &[Field::VolumetricStrain]),
     ("internal_energy", 1, &[Field::InternalEnergy]),
     ("dissipated_energy", 1, &[Field::DissipatedEnergy]),
+    ("equivalent_plastic_strain", 1, &[Field::EquivalentPlasticStrain]),
     ("body", 1, &[]),
     ("constraint", 1, &[]),
 ];
@@ -59,7 +60,7 @@ pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
     let present = crate::step::fields(&scene.method);
     let mut list = needed(scene, fields);
     if fields.contains(&Field::VolumetricStrain) {
-        list.extend([Field::DeviatoricStress, Field::ViscousStrain, Field::DissipatedEnergy]);
+        list.extend([Field::DeviatoricStress, Field::InelasticStrain, Field::DissipatedEnergy]);
         // With the velocity it is a total energy.
         if fields.contains(&Field::Velocity) {
             list.extend([Field::HourglassEnergy, Field::ContactEnergy]);
@@ -223,6 +224,7 @@ impl<'a> Moment<'a> {
             "volumetric_strain" => vec![self.volumetric_strain(i)],
             "internal_energy" => vec![self.scalar(Field::InternalEnergy, i)],
             "dissipated_energy" => vec![self.scalar(Field::DissipatedEnergy, i)],
+            "equivalent_plastic_strain" => vec![self.scalar(Field::EquivalentPlasticStrain, i)],
             "body" => vec![f64::from(particle.body)],
             _ => vec![f64::from(particle.constraint)],
         }

@@ -1,5 +1,6 @@
 //! Begins a load step: what is held moves by the integral of its prescribed velocity over the load step, what is
-//! free goes on as far as between the last two equilibria, and all velocities are set to zero.
+//! free goes on as far as between the last two equilibria, and all velocities are set to zero. What plastic bodies
+//! remember of the load step before is settled.
 //! Twin: shaders/pass/begin_load.wgsl
 
 use super::{Stage, compensated_add};
@@ -25,6 +26,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     state.particles.equilibrium_displacement = equilibrium;
     state.particles.displacement_carry = carry;
     state.particles.velocity.fill(S::Vec::default());
+    if state.method.plastic() {
+        let particles = &mut state.particles;
+        particles.equilibrium_inelastic_strain.copy_from_slice(&particles.inelastic_strain);
+        particles.equilibrium_plastic_strain.copy_from_slice(&particles.equivalent_plastic_strain);
+    }
 }
 
 /// The last increment of what is free, and the prescribed one of what is held.

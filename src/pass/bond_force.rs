@@ -5,14 +5,15 @@
 //! the gradient of the energy sum V_a [psi(F_a) + (alpha E/2) sum V_b w |F_a X_ab - x_ab|^2], w = -W'(R)/R. The
 //! corrected F is the least-squares fit with these weights, so the derivative of the second term by F vanishes
 //! and its force is only sum alpha E V_b w [2 u_ab - (H_a + H_b) X_ab], ab meaning b - a. The parts of both
-//! terms that belong to one particle were put together in [`super::deform`].
+//! terms that belong to one particle were put together in [`super::deform`]. Where a body has flowed, each end has its
+//! own alpha, see [`hourglass_stiffness`].
 //!
 //! The quadratic-exact gradient adds sum (P_a C2_a - P_b C2_b) V_b w X_ab X_ab, see [`super::correct_quadratic`].
 //!
 //! Twin: shaders/pass/bond_force.wgsl
 
 use super::Stage;
-use crate::bond::{Source, displacement_difference, with_bonds};
+use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::pair::mirror_tensor;
 use crate::scene::file::Gradient;
 use crate::state::State;
@@ -35,8 +36,8 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     // Sum of the weights alone: what a's own stress is multiplied with.
     let (mut own, mut others) = (S::Vec::default(), S::Vec::default());
     let body = state.body(a);
-    // Bonds join particles of one body, so both ends have the same stiffness.
-    let stiffness = S::Real::of(2.0) * state.params.hourglass * body.youngs_modulus;
+    // Where nothing flows, both ends of a bond have the same stiffness.
+    let (stiffness, plastic) = (hourglass_stiffness(state, a), state.method.plastic());
     for part in B::parts(state, a) {
         let block = B::load(state, a, part.clone());
         for lane in 0..part.len() {
@@ -48,7 +49,8 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
             own += bond.row.gradient;
             others += S::mat_vec(stress, bond.row.gradient);
             if state.method.hourglass {
-                others = others - displacement_difference::<S, B>(state, a, &bond) * (stiffness * bond.row.weight);
+                let both = stiffness + if plastic { hourglass_stiffness(state, bond.b) } else { stiffness };
+                others = others - displacement_difference::<S, B>(state, a, &bond) * (both * bond.row.weight);
             }
         }
     }

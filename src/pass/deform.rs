@@ -9,8 +9,8 @@
 //! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
-use crate::bond::{Source, displacement_difference, with_bonds};
-use crate::material;
+use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
+use crate::material::{self, Memory};
 use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
@@ -22,10 +22,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     // Where nothing else comes between deformation and stress, one loop does both.
     let at_once = !state.method.memory() && state.method.gradient != Gradient::Quadratic;
-    let hourglass = S::Real::of(-1.0) * state.params.hourglass;
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     let mut stresses = std::mem::take(&mut state.particles.bond_stress);
-    let before = if state.method.memory() && state.method.dissipated_energy { gradients.clone() } else { Vec::new() };
+    let heats = state.method.memory() && state.method.dissipated_energy;
+    let before = if heats { gradients.clone() } else { Vec::new() };
     with_bonds!(state, B => {
         let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
         columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
@@ -35,9 +35,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             if state.method.gradient == Gradient::Quadratic {
                 *gradient = quadratic_gradient::<S, B>(state, a, stress);
             }
-            *stress = linear * (hourglass * state.body(a).youngs_modulus);
+            *stress = linear;
             if at_once {
-                *stress += corrected(state, a, &piola(state, a, *gradient));
+                *stress = corrected(state, a, &piola(state, a, *gradient)) - linear * hourglass_stiffness(state, a);
             }
         });
     });
@@ -47,7 +47,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     relax(state, &before);
-    super::write(&mut stresses, |a, slot| *slot += bond_stress(state, a));
+    super::write(&mut stresses, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
     state.particles.bond_stress = stresses;
     let mut stresses = std::mem::take(&mut state.particles.quadratic_stress);
     super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.particles.quadratic_coefficient[a]));
@@ -56,21 +56,44 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 
 /// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
 fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
+    if !state.method.memory() {
+        return;
+    }
     let step = state.clock.step;
-    let mut memories = std::mem::take(&mut state.particles.viscous_strain);
-    let mut heats = if before.is_empty() { Vec::new() } else { std::mem::take(&mut state.particles.dissipated_energy) };
-    let old = if before.is_empty() { Vec::new() } else { memories.clone() };
+    let mut memories = vec![(S::Sym::default(), S::Real::of(0.0)); state.params.count as usize];
     let gradients = &state.particles.displacement_gradient;
-    super::write(&mut memories, |a, memory| *memory = material::relax::<S>(state.body(a), gradients[a], *memory, step));
-    super::write(&mut heats, |a, heat| {
-        let body = state.body(a);
-        let heat_of_step = material::dissipated::<S>(body, (before[a], old[a]), (gradients[a], memories[a]));
-        *heat += heat_of_step * (S::Real::of(1.0) / body.density);
+    super::write(&mut memories, |a, memory| {
+        *memory = material::relax::<S>(state.body(a), gradients[a], remembered(state, a), step);
     });
-    state.particles.viscous_strain = memories;
     if !before.is_empty() {
+        let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
+        super::write(&mut heats, |a, heat| {
+            let (body, old) = (state.body(a), state.particles.inelastic_strain[a]);
+            let of_step =
+                material::dissipated::<S>(body, (before[a], old), (state.particles.displacement_gradient[a], memories[a].0));
+            *heat += of_step * (S::Real::of(1.0) / body.density);
+        });
         state.particles.dissipated_energy = heats;
     }
+    for (a, (strain, plastic)) in memories.into_iter().enumerate() {
+        state.particles.inelastic_strain[a] = strain;
+        if let Some(slot) = state.particles.equivalent_plastic_strain.get_mut(a) {
+            *slot = plastic;
+        }
+    }
+}
+
+/// What the law remembers from before the step. In a descent to equilibrium, which is no motion in time, every step
+/// begins at the last equilibrium.
+#[inline(always)]
+fn remembered<S: Space>(state: &State<S>, a: usize) -> Memory<S> {
+    let particles = &state.particles;
+    let (strains, plastic) = if state.method.quasi_static.is_some() {
+        (&particles.equilibrium_inelastic_strain, &particles.equilibrium_plastic_strain)
+    } else {
+        (&particles.inelastic_strain, &particles.equivalent_plastic_strain)
+    };
+    (strains[a], plastic.get(a).copied().unwrap_or_default())
 }
 
 /// sum V_b (u_b - u_a) (x) grad_a W_ab
@@ -115,7 +138,7 @@ pub(super) fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::
 /// P_a
 #[inline(always)]
 fn piola<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
-    let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
+    let memory = state.particles.inelastic_strain.get(a).copied().unwrap_or_default();
     material::first_piola::<S>(state.body(a), gradient, memory)
 }
 

@@ -3,7 +3,7 @@
 
 use super::Stage;
 use super::deform::{corrected, sum_bonds};
-use crate::bond::{Source, displacement_difference, with_bonds};
+use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -27,6 +27,5 @@ fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
             sum += S::inner(stray, stray) * (S::Real::of(-1.0) * bond.row.weight);
         }
     }
-    let stiffness = state.params.hourglass * state.body(a).youngs_modulus;
-    S::Real::of(0.5) * stiffness * state.particles.reference_volume[a] * sum
+    S::Real::of(0.5) * hourglass_stiffness(state, a) * state.particles.reference_volume[a] * sum
 }

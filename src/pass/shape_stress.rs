@@ -6,17 +6,19 @@
 use super::Stage;
 use crate::material::{self, strain};
 use crate::state::State;
-use crate::tensor::Space;
+use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
     let step = state.clock.step;
-    let mut memories = std::mem::take(&mut state.particles.viscous_strain);
+    let mut memories = std::mem::take(&mut state.particles.inelastic_strain);
     let gradients = &state.particles.displacement_gradient;
-    super::write(&mut memories, |a, memory| *memory = material::relax::<S>(state.body(a), gradients[a], *memory, step));
-    state.particles.viscous_strain = memories;
+    super::write(&mut memories, |a, memory| {
+        *memory = material::relax::<S>(state.body(a), gradients[a], (*memory, S::Real::of(0.0)), step).0;
+    });
+    state.particles.inelastic_strain = memories;
     let mut stresses = std::mem::take(&mut state.particles.shape_stress);
     super::write(&mut stresses, |a, slot| *slot = stress(state, a));
     state.particles.shape_stress = stresses;
@@ -28,7 +30,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let gradient = state.particles.displacement_gradient[a];
-    let memory = state.particles.viscous_strain.get(a).copied().unwrap_or_default();
+    let memory = state.particles.inelastic_strain.get(a).copied().unwrap_or_default();
     let stress = material::first_piola::<S>(state.body(a), gradient, memory);
     if !state.method.list_follows() {
         return stress;

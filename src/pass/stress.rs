@@ -3,6 +3,9 @@
 //!
 //! The rotation is Cayley's, Q = (1 - A/2)^-1 (1 + A/2) with A = step Omega (Hughes & Winget 1980): exactly
 //! orthogonal, where adding step (Omega S - S Omega) as printed in Fuller (2.45) lets S grow by 5 % a turn.
+//!
+//! Where a body yields, the deviator then returns along itself to the yield surface, S -> (sY/q) S with
+//! q = sqrt(3 J2) (Wilkins 1964). Fuller (5.1) as printed lacks the root: sY^2/q^2 takes S below the surface.
 
 use super::Stage;
 use crate::material;
@@ -25,6 +28,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         });
         state.particles.deviatoric_stress = stress;
     }
+    if state.method.plastic() {
+        yield_to(state);
+    }
     if state.method.density == Density::Continuity {
         let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
         super::write(&mut strain, |a, slot| {
@@ -34,6 +40,24 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         });
         state.particles.volumetric_strain = strain;
     }
+}
+
+/// Returns stress to the yield surface.
+fn yield_to<S: Space>(state: &mut State<S>) {
+    let mut stress = std::mem::take(&mut state.particles.deviatoric_stress);
+    let mut plastic = std::mem::take(&mut state.particles.equivalent_plastic_strain);
+    let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
+    for (a, (stress, k)) in stress.iter_mut().zip(&mut plastic).enumerate() {
+        let body = state.body(a);
+        let (returned, growth, work) = material::j2::yielded::<S>(body, *stress, *k);
+        (*stress, *k) = (returned, *k + growth);
+        if let Some(heat) = heats.get_mut(a) {
+            *heat += work * ((S::Real::of(1.0) + state.particles.volumetric_strain[a]) / body.density);
+        }
+    }
+    state.particles.deviatoric_stress = stress;
+    state.particles.equivalent_plastic_strain = plastic;
+    state.particles.dissipated_energy = heats;
 }
 
 /// The plain gradient is divided by the density of the step's start; here by that of its middle, without which

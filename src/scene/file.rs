@@ -77,6 +77,20 @@ impl File {
         self.formulation.list_margin.unwrap_or(usual)
     }
 
+    /// Strength of the hourglass energy. A body that yields bears less of it: at 0.5 a flat punch asks for 11 % more
+    /// than the slip lines do, at 0.1 for 9 %.
+    pub fn hourglass(&self) -> f64 {
+        let yields = self.body.iter().any(|body| self.material.get(&body.material).is_some_and(|m| m.law == Law::J2));
+        let usual = if self.formulation.kind != Kind::TotalLagrangian {
+            0.0
+        } else if yields {
+            0.1
+        } else {
+            0.5
+        };
+        self.formulation.hourglass.unwrap_or(usual)
+    }
+
     /// Time between frames, 0 for none: a tenth of the duration unless given, but no less than a load step.
     pub fn frames(&self) -> f64 {
         let least = self.quasi_static.as_ref().map_or(0.0, |q| self.duration / f64::from(q.load_steps));
@@ -194,6 +208,20 @@ pub struct Material {
     pub shear_modulus: Option<f64>,
     /// Newtonian viscosity of a Maxwell body: stress times time.
     pub viscosity: Option<f64>,
+    /// Mises stress at which a J2 body begins to flow.
+    pub yield_stress: Option<f64>,
+    /// How its yield stress grows; not at all unless given.
+    pub hardening: Option<Hardening>,
+}
+
+/// What is added to the yield stress at the equivalent plastic strain k.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hardening {
+    /// Modulus times k.
+    Linear(f64),
+    /// coefficient k^exponent
+    Power { coefficient: f64, exponent: f64 },
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -206,7 +234,8 @@ pub struct Formulation {
     pub density: Density,
     /// Plain in the Eulerian formulation unless given, adjoint in the Total Lagrangian.
     pub gradient: Option<Gradient>,
-    /// Strength of the hourglass energy of the Total Lagrangian formulation, over Young's modulus; 0.5 unless given.
+    /// Strength of the hourglass energy of the Total Lagrangian formulation, over Young's modulus; 0.5 unless
+    /// given, 0.1 where a body yields.
     pub hourglass: Option<f64>,
     /// Total Lagrangian on the CPU: look bonds up among the distinct ones, three times as fast, instead of evaluating
     /// each anew, which takes less memory where there is no lattice. A GPU always does the latter.
@@ -228,7 +257,7 @@ pub struct Formulation {
     pub artificial_stress: Option<ArtificialStress>,
     /// Integrate the energy equation.
     pub internal_energy: bool,
-    /// Add up what viscosity, of the formulation or of a Maxwell body, turns into heat.
+    /// Add up what viscosity, of the formulation or of a Maxwell body, turns into heat, and plastic work.
     pub dissipated_energy: bool,
     /// Reach of the neighbour list beyond the kernel's, over h. In space more pairs pay for it than in the
     /// plane, so there it is smaller unless given.
@@ -280,9 +309,6 @@ impl Formulation {
     pub fn gradient(&self) -> Gradient {
         let usual = if self.kind == Kind::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
         self.gradient.unwrap_or(usual)
-    }
-    pub fn hourglass(&self) -> f64 {
-        self.hourglass.unwrap_or(if self.kind == Kind::TotalLagrangian { 0.5 } else { 0.0 })
     }
 }
 

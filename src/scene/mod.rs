@@ -10,6 +10,7 @@ pub mod file;
 mod motion;
 mod neighbors;
 pub mod packing;
+mod plasticity;
 mod quasi_static;
 pub mod read;
 mod resolve;
@@ -73,6 +74,9 @@ pub struct Body {
     pub shear_modulus: f64,
     /// Shear modulus over viscosity of a Maxwell body, else 0.
     pub relaxation: f64,
+    /// Yield stress of a J2 body, and its hardening's coefficient and exponent; else 0, 0 and 1.
+    pub yield_stress: f64,
+    pub hardening: [f64; 2],
     /// Volume over unstressed volume at the start.
     pub relative_volume: f64,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.

@@ -4,6 +4,7 @@ use super::copies::{expand, named, pairs};
 use super::corrected_kernel::{self, Configuration};
 use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
 use super::packing::fill;
+use super::plasticity;
 use super::read::{Read, Source, hint};
 use super::shape::used;
 use super::surfaces::Parts;
@@ -172,8 +173,9 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
             let hint = hint(&typed.material, &file.material.keys().map(String::as_str).collect::<Vec<_>>());
             return Err(refuse_at("material", format!("no [material.{}]{hint}", typed.material)));
         };
-        let (bulk_modulus, shear_modulus) = moduli(material)
-            .map_err(|message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material)))?;
+        let named = |message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material));
+        let (bulk_modulus, shear_modulus) = moduli(material).map_err(named)?;
+        let (yield_stress, hardening) = plasticity::numbers(material).map_err(named)?;
         let relative_volume = typed.relative_volume.unwrap_or(1.0);
         if !(relative_volume > 0.0 && relative_volume.is_finite()) {
             return Err(refuse_at(
@@ -206,6 +208,8 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
             bulk_modulus,
             shear_modulus,
             relaxation: material.viscosity.map_or(0.0, |viscosity| shear_modulus / viscosity),
+            yield_stress,
+            hardening,
             relative_volume,
             deviator,
         });
@@ -463,11 +467,14 @@ fn method(
     })?;
     let dissipates = f.viscosity.is_some() || rubs(file) || bodies.iter().any(|body| body.law.has_memory());
     refuse.unless(!f.dissipated_energy || dissipates, &["formulation", "dissipated_energy"], || {
-        "dissipated_energy adds up the heat of viscosity and friction, and this scene names no viscosity and no friction".into()
+        "dissipated_energy adds up the heat of viscosity, friction and plastic work, and this scene names no viscosity, has \
+         no friction and does not yield"
+            .into()
     })?;
     let lagrangian = f.kind == Kind::TotalLagrangian;
     let corrected_kernel = corrected_kernel::options(file, refuse)?;
     lagrangian_only(file, bodies, refuse)?;
+    plasticity::check(file, bodies, refuse)?;
     quasi_static::check(file, bodies, refuse)?;
     let mut laws: Vec<Law> = bodies.iter().map(|body| body.law).collect();
     laws.sort_unstable();
@@ -483,7 +490,7 @@ fn method(
         kind: f.kind,
         corrected_kernel,
         laws,
-        hourglass: lagrangian && f.hourglass() > 0.0,
+        hourglass: lagrangian && file.hourglass() > 0.0,
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
         shear: bodies.iter().any(|b| b.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
@@ -518,12 +525,13 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     let finite = f.kind != Kind::Eulerian;
     for (k, body) in bodies.iter().enumerate() {
         let at = k.to_string();
-        refuse.unless(body.law.is_finite_strain() == finite, &["body", &at, "material"], || {
-            let words = "`st_venant_kirchhoff`, `neo_hookean` or `maxwell`";
+        let serves = if finite { body.law.is_finite_strain() } else { body.law.is_hypoelastic() };
+        refuse.unless(serves, &["body", &at, "material"], || {
+            let words = "`st_venant_kirchhoff`, `neo_hookean`, `maxwell`";
             if finite {
-                format!("this formulation.kind takes a material whose law is {words}")
+                format!("this formulation.kind takes a material whose law is {words} or `j2`")
             } else {
-                format!("a material whose law is {words} needs formulation.kind `total_lagrangian` or `corrected_kernel`")
+                format!("a material whose law is one of {words} needs formulation.kind `total_lagrangian` or `corrected_kernel`")
             }
         })?;
         let typed = &file.body[k];
@@ -558,8 +566,8 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     refuse.unless(lagrangian || f.hourglass.is_none(), &["formulation", "hourglass"], || {
         "hourglass belongs to formulation.kind `total_lagrangian`".into()
     })?;
-    refuse.unless(f.hourglass() >= 0.0 && f.hourglass().is_finite(), &["formulation", "hourglass"], || {
-        format!("hourglass must be 0 or a positive number, found {}", f.hourglass())
+    refuse.unless(file.hourglass() >= 0.0 && file.hourglass().is_finite(), &["formulation", "hourglass"], || {
+        format!("hourglass must be 0 or a positive number, found {}", file.hourglass())
     })?;
     let remembers = bodies.iter().any(|body| body.law.has_memory());
     let conservative = lagrangian && f.viscosity.is_none() && !remembers;
@@ -567,7 +575,8 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
         "pefrl needs forces that depend on positions alone: a Total Lagrangian scene without viscosity or a law that remembers".into()
     })?;
     refuse.unless(!remembers || file.time.integrator == Integrator::Leapfrog, &["time", "integrator"], || {
-        "the law `maxwell` takes its memory to the end of whole steps: only the integrator leapfrog has it".into()
+        "the laws `maxwell` and `j2` take what they remember to the end of whole steps: only the integrator leapfrog has them"
+            .into()
     })
 }
 

@@ -298,7 +298,7 @@ impl Scene {
             contact_rate: real(self.contact_rate()),
             contact_apart: real(CONTACT_APART * self.bodies.iter().map(|b| b.spacing).fold(0.0, f64::max)),
             slack: real(0.5 * self.margin()),
-            hourglass: real(self.file.formulation.hourglass()),
+            hourglass: real(self.file.hourglass()),
             alpha: real(viscosity.alpha),
             beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
             softening: real(viscosity.softening.max(LEAST_SOFTENING)),
@@ -363,6 +363,9 @@ impl super::Body {
             shear_modulus: real(self.shear_modulus),
             youngs_modulus: real(self.youngs_modulus()),
             relaxation: real(self.relaxation),
+            yield_stress: real(self.yield_stress),
+            hardening: real(self.hardening[0]),
+            hardening_exponent: real(self.hardening[1]),
             sound_speed: real(self.sound_speed()),
             smoothing_length: real(self.smoothing_length),
         }

@@ -18,10 +18,11 @@ pub(super) struct Fault<'a> {
 }
 
 /// Keys whose value is a table of exactly one key, which says what kind of thing it holds.
-const CHOICES: [(&str, &str); 4] = [
+const CHOICES: [(&str, &str); 5] = [
     ("shape", SHAPE),
     ("inside", SHAPE),
     ("from", SHAPE),
+    ("hardening", "a table such as `{ linear = 0.1 }`"),
     ("motion", "a table such as `{ wave = { amplitude = [1], wave_vector = [2] } }`"),
 ];
 const SHAPE: &str = "a table such as `{ disc = { center = [0, 0], radius = 1 } }`";

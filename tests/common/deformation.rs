@@ -6,11 +6,12 @@ use lithosph::material::{self, Law};
 use lithosph::state::Body;
 use lithosph::tensor::{Real, Space};
 
-pub const LAWS: [Law; 3] = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+pub const LAWS: [Law; 4] = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
 
-/// The plate of Shutov & Klyuchantsev 2019; viscosity 1 where it has one.
+/// The plate of Shutov & Klyuchantsev 2019; viscosity 1 where it has one, and yield at a fifth of the shear modulus.
 pub fn body<R: Real>(law: Law) -> Body<R> {
     let relaxation = if law == Law::Maxwell { 1.25 } else { 0.0 };
+    let yield_stress = if law == Law::J2 { 0.25 } else { 0.0 };
     Body {
         law: law as u32,
         density: R::of(3.0),
@@ -18,6 +19,9 @@ pub fn body<R: Real>(law: Law) -> Body<R> {
         shear_modulus: R::of(1.25),
         youngs_modulus: R::of(3.5),
         relaxation: R::of(relaxation),
+        yield_stress: R::of(yield_stress),
+        hardening: R::of(yield_stress),
+        hardening_exponent: R::of(1.0),
         ..Body::default()
     }
 }
@@ -39,7 +43,7 @@ pub fn memory<S: Space>(random: &mut Random, size: f64) -> S::Sym {
     let step = S::Real::of(0.5);
     (0..3).fold(S::Sym::default(), |memory, _| {
         let h = gradient::<S>(random, size);
-        material::relax::<S>(&body, h, memory, step)
+        material::relax::<S>(&body, h, (memory, S::Real::of(0.0)), step).0
     })
 }
 

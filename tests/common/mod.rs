@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod deformation;
+pub mod matrix;
 
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Columns};

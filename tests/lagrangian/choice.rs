@@ -66,7 +66,7 @@ fn each_option_adds_its_own_fields_and_passes() {
     let cases: &[(&[&str], &[Field], &[Pass])] = &[
         (&[], &[Field::HourglassEnergy], &[Pass::HourglassEnergy]),
         (&["formulation.viscosity={ alpha = 1.0 }"], &[Field::HourglassEnergy], &[Pass::HourglassEnergy, Pass::BondFriction]),
-        (&[MAXWELL[0], MAXWELL[1], "formulation.hourglass=0"], &[Field::ViscousStrain], &[]),
+        (&[MAXWELL[0], MAXWELL[1], "formulation.hourglass=0"], &[Field::InelasticStrain], &[]),
         (
             &["formulation.gradient='quadratic'", "formulation.hourglass=0"],
             &[Field::LinearCoefficient, Field::QuadraticCoefficient, Field::QuadraticStress],

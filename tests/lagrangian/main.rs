@@ -9,6 +9,7 @@ mod maxwell;
 mod moment;
 mod operators;
 mod patches;
+mod plasticity;
 mod quasi_static;
 mod shape_block;
 mod shape_functions;

@@ -53,8 +53,8 @@ fn stress_turns_with_the_body<S: Space<Real = f64>>() {
             let wanted = first_piola::<S>(&body, h, memory);
             let wanted = wanted + S::mat_mat(turn, wanted);
             assert!(apart::<S>(first_piola::<S>(&body, turned, memory), wanted) < 1e-13 * (1.0 + size::<S>(wanted)), "{law:?}");
-            let (a, b) = (relax::<S>(&body, h, memory, 0.3), relax::<S>(&body, turned, memory, 0.3));
-            assert!(apart::<S>(S::mat_of_sym(a), S::mat_of_sym(b)) < 1e-14, "{law:?}");
+            let (a, b) = (relax::<S>(&body, h, (memory, 0.1), 0.3), relax::<S>(&body, turned, (memory, 0.1), 0.3));
+            assert!(apart::<S>(S::mat_of_sym(a.0), S::mat_of_sym(b.0)) < 1e-14 && (a.1 - b.1).abs() < 1e-14, "{law:?}");
         }
     }
 }
@@ -108,8 +108,10 @@ fn is_a_slice_of_space<S: Space<Real = f64>>() {
             assert!(apart::<S>(seen, first_piola::<S>(&body, h, memory)) < 1e-14 * (1.0 + size::<S>(seen)), "{law:?}");
             let energies = [stored_energy::<S>(&body, h, memory), stored_energy::<Solid<f64>>(&body, whole, full)];
             assert!((energies[0] - energies[1]).abs() < 1e-14, "{law:?}: {energies:?}");
-            let seen = relax::<Solid<f64>>(&body, whole, full, 0.3);
-            let wanted = memory_in_space::<S>(relax::<S>(&body, h, memory, 0.3));
+            let (seen, plastic) = relax::<Solid<f64>>(&body, whole, (full, 0.1), 0.3);
+            let wanted = relax::<S>(&body, h, (memory, 0.1), 0.3);
+            assert!((plastic - wanted.1).abs() < 1e-15);
+            let wanted = memory_in_space::<S>(wanted.0);
             assert!((seen - wanted).0.iter().all(|e| e.abs() < 1e-15), "{law:?}: {seen:?} {wanted:?}");
         }
     }
@@ -136,7 +138,9 @@ fn error_of_f32<W: Space<Real = f64>, N: Space<Real = f32>>(strain: f64) -> f64 
             }
             let truth = first_piola::<W>(&body(law), embedded::<N, W>(h), wide);
             let seen = embedded::<N, W>(first_piola::<N>(&body(law), h, memory));
-            worst = worst.max(apart::<W>(truth, seen) / size::<W>(truth));
+            // On the line the pressure and the deviator of a law that remembers may cancel.
+            let least = body::<f64>(law).shear_modulus * strain;
+            worst = worst.max(apart::<W>(truth, seen) / size::<W>(truth).max(least));
         }
     }
     worst

@@ -87,7 +87,7 @@ fn energies_count_memory_and_heat() {
     let (h, memory) = ([0.2, -0.1, 0.15, 0.05], [0.1, -0.05, 0.03]);
     let rows: [(Field, &[f64]); 4] = [
         (Field::DisplacementGradient, &h),
-        (Field::ViscousStrain, &memory),
+        (Field::InelasticStrain, &memory),
         (Field::Velocity, &[2.0, 2.0]),
         (Field::DissipatedEnergy, &[0.7]),
     ];
@@ -116,7 +116,7 @@ fn observables_read_what_the_formulation_has() {
         let scene = parse(&text(2, law, ""));
         let fields = fields_read(&observers(&scene), &scene);
         assert!(fields.contains(&Field::DisplacementGradient) && !fields.contains(&Field::VolumetricStrain));
-        assert_eq!(fields.contains(&Field::ViscousStrain), memory);
+        assert_eq!(fields.contains(&Field::InelasticStrain), memory);
     }
 }
 

@@ -139,6 +139,49 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             ..BARE
         },
         Case {
+            name: "leapfrog, j2 and elastic, heat, plain",
+            units: STEEL,
+            bodies: 2,
+            laws: ["j2", "elastic"],
+            formulation: "dissipated_energy = true",
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, j2 by a power, summation, adjoint",
+            bodies: 2,
+            planes: 1,
+            laws: ["j2, power", "j2, linear"],
+            formulation: "density = \"summation\"\ngradient = \"adjoint\"\nviscosity = { alpha = 0.5 }\ndissipated_energy = true",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, j2 with linear hardening and neo-hookean, heat",
+            units: STEEL,
+            bodies: 2,
+            planes: 1,
+            laws: ["j2, linear", "neo_hookean"],
+            formulation: "kind = \"total_lagrangian\"\ndissipated_energy = true",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, j2 by a power and maxwell, quadratic gradient",
+            bodies: 2,
+            compensated: true,
+            laws: ["j2, power", "maxwell"],
+            formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"",
+            ..BARE
+        },
+        Case {
+            name: "fire, j2, planes",
+            bodies: 2,
+            planes: 1,
+            boundary: true,
+            laws: ["j2", "j2, linear"],
+            formulation: "kind = \"total_lagrangian\"",
+            time: FIRE,
+            ..BARE
+        },
+        Case {
             name: "lagrangian, pefrl, two laws, planes",
             bodies: 2,
             planes: dimension,
@@ -323,6 +366,17 @@ impl Case {
             "" => String::new(),
             // Relaxes by about a tenth in a step.
             "maxwell" => format!("law = \"maxwell\"\nviscosity = {:e}\n", self.units[1] * self.moment()),
+            // The random strains are of a tenth: some particles yield.
+            "j2" => format!("law = \"j2\"\nyield_stress = {:e}\n", 0.05 * self.units[1]),
+            "j2, linear" => {
+                let [_, modulus, _] = self.units;
+                format!("law = \"j2\"\nyield_stress = {:e}\nhardening = {{ linear = {:e} }}\n", 0.05 * modulus, 0.1 * modulus)
+            }
+            "j2, power" => {
+                let [_, modulus, _] = self.units;
+                let hardening = format!("{{ power = {{ coefficient = {:e}, exponent = 0.3 }} }}", 0.05 * modulus);
+                format!("law = \"j2\"\nyield_stress = {:e}\nhardening = {hardening}\n", 0.02 * modulus)
+            }
             law => format!("law = \"{law}\"\n"),
         }
     }

@@ -23,9 +23,9 @@ const FUNCTIONS: [Function; 3] = [
     },
     Function {
         name: "relax",
-        parameters: "body: Body, h: Mat, memory: Sym, step: real",
+        parameters: "body: Body, h: Mat, memory: Memory, step: real",
         arguments: "body, h, memory, step",
-        result: "Sym",
+        result: "Memory",
         without_memory: Some("memory"),
     },
     Function {
@@ -41,6 +41,9 @@ pub(super) fn text(laws: &[Law]) -> String {
     let laws: Vec<Law> = laws.iter().copied().filter(|law| law.is_finite_strain()).collect();
     let mut text: String = laws.iter().map(|law| format!("#import {}\n", law.word())).collect();
     let memory = laws.iter().any(|law| law.has_memory());
+    if memory {
+        text += "#import memory\n";
+    }
     for function in FUNCTIONS.iter().filter(|function| memory || function.without_memory.is_none()) {
         text += &format!("\nfn {}({}) -> {} {{\n", function.name, function.parameters, function.result);
         text += &body(function, &laws);

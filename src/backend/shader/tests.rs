@@ -69,7 +69,7 @@ fn reflection_tells_what_each_entry_point_uses() {
 fn methods() -> Vec<Method> {
     use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 13] = [
+    let switches: [fn(&mut Method); 14] = [
         |_| (),
         |m| m.shear = true,
         |m| m.many_bodies = true,
@@ -82,6 +82,7 @@ fn methods() -> Vec<Method> {
         |m| (m.xsph, m.velocity_filter) = (true, false),
         |m| (m.xsph, m.velocity_filter) = (false, true),
         |m| (m.internal_energy, m.dissipated_energy) = (true, true),
+        |m| (m.laws, m.shear, m.integrator) = (vec![Law::Elastic, Law::J2], true, Integrator::Leapfrog),
         |m| m.compensated = true,
     ];
     let forms = [None, Some(ArtificialForm::Scalar), Some(ArtificialForm::Principal)];
@@ -145,13 +146,13 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         |m| (m.many_bodies, m.coupling) = (true, true),
         |m| m.symmetry = true,
         |m| m.periodic = true,
-        |m| m.dissipated_energy = m.memory(),
+        |m| m.dissipated_energy = m.memory() && m.quasi_static.is_none(),
         |m| m.quasi_static = Some(Descent::Fire),
         |m| m.quasi_static = Some(Descent::KineticDamping),
     ];
-    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell];
+    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
     let mut list = Vec::new();
-    for set in 1..8 {
+    for set in 1..16 {
         let mut together = Method {
             dimension,
             kind: Kind::TotalLagrangian,
@@ -198,7 +199,7 @@ fn corrected_methods(dimension: usize) -> Vec<Method> {
     use crate::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
     use crate::scene::file::{Gradient, Integrator, Kind};
     let mut list = Vec::new();
-    for (k, method) in lagrangian_methods(dimension).into_iter().enumerate() {
+    for (k, method) in lagrangian_methods(dimension).into_iter().filter(|method| !method.plastic()).enumerate() {
         let (configuration, deformation) = [
             (Configuration::Current, Deformation::Evolved),
             (Configuration::Current, Deformation::Reference),
