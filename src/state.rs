@@ -169,6 +169,8 @@ pub struct Params<R> {
     /// Entries that a facet's list of contacts can hold.
     pub facet_capacity: u32,
     pub obstacle_count: u32,
+    /// Place of the one pair that stands for all where all surfaces touch alike, plus 1; else 0.
+    pub facet_alike: u32,
     /// Always zero; the compiler does not know it.
     pub zero: u32,
     pub origin_x: R,
@@ -495,6 +497,15 @@ impl<S: Space> State<S> {
     #[inline(always)]
     pub fn facet_pair(&self, a: usize, b: usize) -> &FacetPair<S::Real> {
         &self.facet_pairs[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
+    }
+    /// How the surface of particle a touches facet f, which is in the list of one of a's: nowhere else to be looked up
+    /// if all surfaces touch alike.
+    #[inline(always)]
+    pub fn listed_pair(&self, a: usize, f: usize) -> &FacetPair<S::Real> {
+        if self.params.facet_alike > 0 {
+            return &self.facet_pairs[self.params.facet_alike as usize - 1];
+        }
+        self.facet_pair(a, self.particles.facet_owner[f] as usize)
     }
     /// Factor of a boundary condition's course at an absolute time.
     pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {

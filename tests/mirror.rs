@@ -37,7 +37,7 @@ macro_rules! assert_mirrors {
 fn params_mirror_the_shader_s() {
     assert_mirrors!(Params:
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-        artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
+        artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
         body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, facet_reach, contact_rate, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
         artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate,
     );

@@ -19,6 +19,7 @@ struct Params {
     facet_count: u32,
     facet_capacity: u32,
     obstacle_count: u32,
+    facet_alike: u32,
     zero: u32,
     origin_x: real,
     origin_y: real,

@@ -110,7 +110,7 @@ fn sum_facing(e: u32) -> Sums {
     let listed = facet_contact_count[e];
     for (var k = 0u; k < listed; k++) {
         let f = facet_contacts[k * params.facet_count + e];
-        let pair = facet_pair(a, facet_owner[f]);
+        let pair = listed_pair(a, f);
         sums.pair = pair;
         let near = facing(own, f, pair.range);
         if near.weight == 0.0 {

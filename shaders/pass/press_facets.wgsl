@@ -67,7 +67,7 @@ fn sum_loads(e: u32, inverse: Mat) -> Load {
         if pull == 0.0 && pulled == 0.0 {
             continue;
         }
-        let near = facing(own, f, facet_pair(a, facet_owner[f]).range);
+        let near = facing(own, f, listed_pair(a, f).range);
         if near.weight == 0.0 {
             continue;
         }

@@ -6,6 +6,7 @@ use super::find_neighbors::visit_cells;
 use crate::facet::facet_separation;
 use crate::state::{Fault, State};
 use crate::tensor::{Real, Space};
+use rayon::prelude::*;
 
 /// Largest n_e.n_f that enters the list: facets that stand across each other hardly touch.
 const MOST_TURN: f64 = -0.05;
@@ -17,17 +18,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut contacts = std::mem::take(&mut state.facet_contacts);
     let mut counts = std::mem::take(&mut state.particles.facet_contact_count);
     let (total, capacity) = (state.params.facet_count as usize, state.params.facet_capacity as usize);
-    let mut full = false;
-    for (e, count) in counts.iter_mut().enumerate() {
-        let mut found = 0;
-        list_one(state, e, |f| {
-            if found < capacity {
-                contacts[found * total + e] = f;
-            }
-            found += 1;
-        });
-        full |= found > capacity;
-        *count = if found > capacity { 0 } else { found as u32 };
+    let found: Vec<Vec<u32>> = (0..total).into_par_iter().with_min_len(super::GRAIN).map(|e| list_one(state, e)).collect();
+    let full = found.iter().any(|list| list.len() > capacity);
+    for (e, (list, count)) in found.iter().zip(&mut counts).enumerate() {
+        *count = if list.len() > capacity { 0 } else { list.len() as u32 };
+        for (k, &f) in list.iter().take(capacity).enumerate() {
+            contacts[k * total + e] = f;
+        }
     }
     if full {
         state.clock.fault = Fault::ListFull as u32;
@@ -36,7 +33,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     state.particles.facet_contact_count = counts;
 }
 
-fn list_one<S: Space>(state: &State<S>, e: usize, mut keep: impl FnMut(u32)) {
+fn list_one<S: Space>(state: &State<S>, e: usize) -> Vec<u32> {
+    let mut list = Vec::new();
     let columns = &state.particles;
     let reach = state.params.facet_reach;
     let position = columns.facet_reference_position[e] + columns.facet_displacement[e];
@@ -46,12 +44,13 @@ fn list_one<S: Space>(state: &State<S>, e: usize, mut keep: impl FnMut(u32)) {
                 let x = facet_separation(state, e, f);
                 let turn = S::inner(columns.facet_normal[e], columns.facet_normal[f]);
                 if S::inner(x, x) < reach * reach && turn < S::Real::of(MOST_TURN) {
-                    keep(f as u32);
+                    list.push(f as u32);
                 }
             }
         }
         Some(())
     });
+    list
 }
 
 /// Whether the facets of particle b may touch facet e.

@@ -27,27 +27,38 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let total = state.params.facet_count as usize;
-    let mut found = vec![ContactIn::<S>::default(); total];
-    found.par_iter_mut().enumerate().with_min_len(super::GRAIN).for_each(|(e, slot)| {
-        if state.particles.facet_contact_count[e] > 0 {
-            *slot = measure(state, e);
-        }
-    });
-    let friction = state.method.friction;
-    let columns = &mut state.particles;
-    for (e, contact) in found.iter().enumerate() {
-        columns.facet_gap[e] = contact.gap;
-        columns.facet_spread[e] = contact.spread;
-        columns.facet_pull[e] = contact.pull;
-        columns.facet_edge[e] = contact.edge;
-        columns.facet_pressure[e] = contact.pressure;
-        columns.facet_energy[e] = contact.energy;
-        if friction {
-            columns.facet_slip[e] = contact.slip;
-            columns.facet_traction[e] = contact.traction;
-            columns.facet_heat[e] = contact.heat;
-        }
+    let mut own = std::mem::take(&mut state.particles);
+    let take = std::mem::take::<Vec<S::Real>>;
+    let (mut gap, mut spread, mut pull) = (take(&mut own.facet_gap), take(&mut own.facet_spread), take(&mut own.facet_pull));
+    let (mut edge, mut pressure) = (take(&mut own.facet_edge), take(&mut own.facet_pressure));
+    let (mut energy, mut heat) = (take(&mut own.facet_energy), take(&mut own.facet_heat));
+    let mut traction = std::mem::take(&mut own.facet_traction);
+    let mut slip = if state.method.friction { own.facet_slip.clone() } else { Vec::new() };
+    state.particles = own;
+    let rows = (&mut gap, &mut spread, &mut pull, &mut edge, &mut pressure, &mut energy).into_par_iter().enumerate();
+    let rows = rows.with_min_len(super::GRAIN);
+    let found = |e: usize| if state.particles.facet_contact_count[e] > 0 { measure(state, e) } else { Contact::default() };
+    if state.method.friction {
+        let rubbed = (&mut slip, &mut traction, &mut heat).into_par_iter();
+        rows.zip(rubbed).for_each(|((e, row), (slip, traction, heat))| {
+            let contact = found(e);
+            (*slip, *traction, *heat) = (contact.slip, contact.traction, contact.heat);
+            contact.put(row);
+        });
+    } else {
+        rows.for_each(|(e, row)| found(e).put(row));
+    }
+    let own = &mut state.particles;
+    (own.facet_gap, own.facet_spread, own.facet_pull) = (gap, spread, pull);
+    (own.facet_edge, own.facet_pressure, own.facet_energy) = (edge, pressure, energy);
+    (own.facet_slip, own.facet_traction, own.facet_heat) =
+        if state.method.friction { (slip, traction, heat) } else { Default::default() };
+}
+
+impl<R: Copy, V> Contact<R, V> {
+    fn put(&self, row: (&mut R, &mut R, &mut R, &mut R, &mut R, &mut R)) {
+        (*row.0, *row.1, *row.2) = (self.gap, self.spread, self.pull);
+        (*row.3, *row.4, *row.5) = (self.edge, self.pressure, self.energy);
     }
 }
 
@@ -118,7 +129,7 @@ fn sum<S: Space>(state: &State<S>, e: usize) -> Sums<S> {
     let mut sums = Sums::<S> { weight: zero, distance: zero, moved, normal, pair: FacetPair::default() };
     for k in 0..columns.facet_contact_count[e] as usize {
         let f = state.facet_contacts[k * total + e] as usize;
-        let pair = state.facet_pair(a, columns.facet_owner[f] as usize);
+        let pair = state.listed_pair(a, f);
         sums.pair = *pair;
         let Some(facing) = facing(state, e, f, pair.range) else { continue };
         sums.weight += facing.weight;

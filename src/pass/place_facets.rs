@@ -5,6 +5,7 @@ use super::Stage;
 use crate::facet::lever;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -13,9 +14,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut displacements = std::mem::take(&mut state.particles.facet_displacement);
     let mut moves = std::mem::take(&mut state.particles.facet_move);
     let mut normals = std::mem::take(&mut state.particles.facet_normal);
-    super::write(&mut moves, |e, slot| *slot = displacement(state, e) - displacements[e]);
-    super::write(&mut displacements, |e, slot| *slot = displacement(state, e));
-    super::write(&mut normals, |e, slot| *slot = normal(state, e));
+    let rows = (&mut displacements, &mut moves, &mut normals).into_par_iter().enumerate();
+    rows.with_min_len(super::GRAIN).for_each(|(e, (place, step, direction))| {
+        let moved = displacement(state, e);
+        *step = moved - *place;
+        *place = moved;
+        *direction = normal(state, e);
+    });
     state.particles.facet_displacement = displacements;
     state.particles.facet_move = moves;
     state.particles.facet_normal = normals;

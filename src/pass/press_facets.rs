@@ -60,7 +60,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
         if columns.facet_pull[e] == zero && columns.facet_pull[f] == zero {
             continue;
         }
-        let pair = state.facet_pair(a, columns.facet_owner[f] as usize);
+        let pair = state.listed_pair(a, f);
         let Some(facing) = facing(state, e, f, pair.range) else { continue };
         press(state, (e, f), &facing, &mut load);
         if state.method.friction {

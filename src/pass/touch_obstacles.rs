@@ -29,27 +29,21 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut touches = vec![TouchIn::<S>::default(); state.params.facet_count as usize];
     touches.par_iter_mut().enumerate().with_min_len(super::GRAIN).for_each(|(e, slot)| *slot = touch(state, e));
-    let levers: Vec<S::Vec> = (0..touches.len()).map(|e| lever(state, e)).collect();
     let (added, friction) = (state.method.gap.is_some(), state.method.friction);
-    let columns = &mut state.particles;
     for (e, touch) in touches.iter().enumerate() {
+        let moment =
+            if touch.obstacle > 0 { S::outer(touch.load, lever(state, e)) * S::Real::of(-1.0) } else { S::Mat::default() };
+        let columns = &mut state.particles;
         columns.facet_obstacle[e] = touch.obstacle;
         columns.facet_load[e] = touch.load;
-        let moment = S::outer(touch.load, levers[e]) * S::Real::of(-1.0);
-        if added {
-            columns.facet_force[e] += touch.load;
-            columns.facet_moment[e] += moment;
-            columns.facet_pressure[e] += touch.pressure;
-            columns.facet_energy[e] += touch.energy;
-        } else {
-            columns.facet_force[e] = touch.load;
-            columns.facet_moment[e] = moment;
-            columns.facet_pressure[e] = touch.pressure;
-            columns.facet_energy[e] = touch.energy;
-        }
+        let kept = if added { S::Real::of(1.0) } else { S::Real::of(0.0) };
+        columns.facet_force[e] = columns.facet_force[e] * kept + touch.load;
+        columns.facet_moment[e] = columns.facet_moment[e] * kept + moment;
+        columns.facet_pressure[e] = columns.facet_pressure[e] * kept + touch.pressure;
+        columns.facet_energy[e] = columns.facet_energy[e] * kept + touch.energy;
         if friction {
             columns.facet_obstacle_slip[e] = touch.slip;
-            columns.facet_heat[e] = if added { columns.facet_heat[e] + touch.heat } else { touch.heat };
+            columns.facet_heat[e] = columns.facet_heat[e] * kept + touch.heat;
         }
     }
 }

@@ -186,6 +186,13 @@ impl Scene {
         if self.method.gap.is_some() { self.facet_reach() + self.longest_lever() } else { 0.0 }
     }
 
+    /// Place of a pair of bodies whose surfaces touch as those of all others do, plus 1; 0 if pairs differ.
+    fn facet_alike(&self) -> u32 {
+        let mut touching = self.facet_pairs.iter().flatten().enumerate().filter(|(_, pair)| pair.stiffness > 0.0);
+        let Some((place, first)) = touching.next() else { return 0 };
+        if touching.all(|(_, pair)| pair == first) { place as u32 + 1 } else { 0 }
+    }
+
     /// Longest way from a facet to its particle.
     fn longest_lever(&self) -> f64 {
         let lever = |facet: &super::Facet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
@@ -278,6 +285,7 @@ impl Scene {
             facet_count: self.facets.len() as u32,
             facet_capacity: self.facet_capacity(),
             obstacle_count: self.obstacles.len() as u32,
+            facet_alike: self.facet_alike(),
             zero: 0,
             origin_x: real(origin[0]),
             origin_y: real(origin[1]),

@@ -261,7 +261,7 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
     }
     all!(
         same: count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-            artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count;
+            artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
             body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
             artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach, facet_reach, contact_rate
