@@ -352,6 +352,10 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
     for potential in contact::Potential::ALL {
         say(&format!("  {:<24} {}", potential.name(), potential.about()));
     }
+    say("other laws of contact");
+    for (word, about) in contact::OTHERS {
+        say(&format!("  {word:<24} {about}"));
+    }
     say("observables");
     for kind in observable::KINDS {
         say(&format!("  {:<24} {}", kind.word, kind.about));

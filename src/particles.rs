@@ -211,7 +211,10 @@ fields! {
     hourglass_energy: HourglassEnergy, Real, [2, 1, -2], false, "energy of what the deformation gradient does not see, made when asked for";
     kept_count: KeptCount, Integer, NONE, false, "number of the particle's neighbours in the reference configuration";
     contact_count: ContactCount, Integer, NONE, false, "number of entries in the particle's list of contacts";
-    contact_energy: ContactEnergy, Real, [2, 1, -2], false, "the particle's half of the energy of its contacts";
+    colour_excess: ColourExcess, Real, NONE, false, "by how much the colour of the bodies touched exceeds its threshold";
+    surface: Surface, Integer, NONE, true, "1 on the surface of the particle's body, 2 at a corner, else 0";
+    surface_normal: SurfaceNormal, Vec, NONE, true, "outward unit normal of a surface particle";
+    contact_energy: ContactEnergy, Real, [2, 1, -2], false, "the particle's part of the energy of its contacts";
     first_facet: FirstFacet, Integer, NONE, true, "index of the first piece of surface that the particle carries";
     facets: Facets, Integer, NONE, true, "number of the pieces of surface that the particle carries";
     facet_owner: FacetOwner, Integer, NONE, false, "index of the particle that carries the facet";

@@ -2,7 +2,8 @@
 //! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
 
 use crate::bond::BondTable;
-use crate::contact::Potential;
+use crate::contact;
+use crate::contact::zones::{Form, Normals};
 use crate::facet::{FacetPair, GapForm};
 use crate::material::Law;
 use crate::obstacle::Obstacle;
@@ -41,7 +42,7 @@ pub struct Method {
     /// On the CPU, keep the distinct bonds.
     pub bond_table: bool,
     /// How surfaces touch.
-    pub contact: Option<Potential>,
+    pub contact: contact::Laws,
     /// Surfaces keep apart by their facets.
     pub gap: Option<GapForm>,
     /// Rigid obstacles stand in the way.
@@ -69,7 +70,7 @@ impl Method {
     }
     /// Some list must follow the particles.
     pub fn listed_again(&self) -> bool {
-        self.list_follows() || self.contact.is_some() || self.gap.is_some()
+        self.list_follows() || self.contact.any() || self.gap.is_some()
     }
     /// Bodies touch by pieces of their surfaces.
     pub fn facets(&self) -> bool {
@@ -109,7 +110,12 @@ impl Method {
             ("kept_gradients", option(CorrectedKernel::keeps_gradients)),
             ("difference", option(|sums| sums.velocity_gradient == VelocityGradient::Difference)),
             ("hourglass", self.hourglass),
-            ("contact", self.contact.is_some()),
+            ("contact", self.contact.with_energy()),
+            ("potentials", !self.contact.potentials.is_empty()),
+            ("colour_field", self.contact.colour_field),
+            ("zones_printed", self.contact.zones.is_some_and(|zones| zones.form == Form::Printed)),
+            ("zones_all", self.contact.zones.is_some_and(|zones| zones.normals == Normals::All)),
+            ("zones_friction", self.contact.zones.is_some_and(|zones| zones.friction)),
             ("facets", self.facets()),
             ("gap", self.gap.is_some()),
             ("along_normals", self.gap == Some(GapForm::AlongNormals)),
@@ -171,6 +177,9 @@ pub struct Params<R> {
     pub obstacle_count: u32,
     /// Place of the one pair that stands for all where all surfaces touch alike, plus 1; else 0.
     pub facet_alike: u32,
+    /// Most neighbours that a particle on a surface has, and one at a corner.
+    pub surface_count: u32,
+    pub corner_count: u32,
     /// Always zero; the compiler does not know it.
     pub zero: u32,
     pub origin_x: R,
@@ -247,10 +256,18 @@ pub struct Body<R> {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct ContactPair<R> {
-    /// Factor of the potential: an energy.
+    /// Number of the law: of [`contact::Potential::ALL`], [`contact::COLOUR_FIELD`] or [`contact::ZONES`].
+    pub law: u32,
+    /// n of Strand's repulsive force.
+    pub exponent: u32,
+    /// Factor of the potential, an energy; k of the colour field; the zones' force.
     pub strength: R,
-    /// Distance at which it ends; 0 where the bodies do not touch.
+    /// Distance at which it ends, half side of the zones; 0 where the bodies do not touch.
     pub range: R,
+    /// c0 of the colour field.
+    pub threshold: R,
+    /// Coefficient of friction in the zones.
+    pub friction: R,
 }
 
 /// What moves a rigid obstacle. Twin: `Mover` in `shaders/lib/params.wgsl`.
@@ -274,8 +291,19 @@ impl<R> Params<R> {
 }
 
 impl ContactPair<f64> {
+    /// Distance within which particles may touch: for zones, that of a corner of the square.
+    pub fn reach(&self) -> f64 {
+        if self.law == contact::ZONES { std::f64::consts::SQRT_2 * self.range } else { self.range }
+    }
     pub fn map<R: Real>(&self, real: impl Fn(f64) -> R) -> ContactPair<R> {
-        ContactPair { strength: real(self.strength), range: real(self.range) }
+        ContactPair {
+            law: self.law,
+            exponent: self.exponent,
+            strength: real(self.strength),
+            range: real(self.range),
+            threshold: real(self.threshold),
+            friction: real(self.friction),
+        }
     }
 }
 
@@ -432,6 +460,8 @@ pub struct State<S: Space> {
     pub facet_contacts: Vec<u32>,
     /// Force on obstacle k from block j of the facets at `k * blocks + j`.
     pub block_load: Vec<S::Vec>,
+    /// Force of particle a's zone on that entry; empty unless some bodies touch by zones.
+    pub zone_forces: Vec<S::Vec>,
     /// Neighbours of the reference configuration, kept beside a list that follows the particles: entry k of
     /// particle a at `k * count + a`, and with it V_b times the gradient at a of b's shape function.
     pub kept_neighbors: Vec<u32>,
@@ -506,6 +536,12 @@ impl<S: Space> State<S> {
             return &self.facet_pairs[self.params.facet_alike as usize - 1];
         }
         self.facet_pair(a, self.particles.facet_owner[f] as usize)
+    }
+    /// Particles of a particle's list of contacts.
+    #[inline(always)]
+    pub fn contacts_of(&self, a: usize) -> impl Iterator<Item = usize> {
+        let count = self.params.count as usize;
+        (0..self.particles.contact_count[a] as usize).map(move |k| self.contacts[k * count + a] as usize)
     }
     /// Factor of a boundary condition's course at an absolute time.
     pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {

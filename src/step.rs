@@ -2,6 +2,7 @@
 
 mod corrected_kernel;
 
+use crate::contact::zones::Normals;
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
 use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
@@ -41,9 +42,7 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
         if method.viscosity {
             calls.push(call(Pass::BondFriction));
         }
-        if method.contact.is_some() {
-            calls.push(call(Pass::ContactForce));
-        }
+        contact(method, calls);
         if method.facets() {
             calls.push(call(Pass::SurfaceForce));
         }
@@ -59,6 +58,29 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
         calls.push(call(Pass::CorrectGradient));
     }
     calls.extend([Pass::SpecificStress, Pass::Force].map(call));
+    contact(method, calls);
+}
+
+/// Adds what touching bodies do to each other.
+fn contact(method: &Method, calls: &mut Vec<Call>) {
+    if method.contact.colour_field {
+        calls.push(call(Pass::SumColour));
+    }
+    if method.contact.with_energy() {
+        calls.push(call(Pass::ContactForce));
+    }
+    if let Some(zones) = method.contact.zones {
+        if zones.normals != Normals::Initial {
+            find_surface(method.kind == Kind::TotalLagrangian, false, calls);
+        }
+        calls.extend([Pass::PushIntruders, Pass::ZoneForce].map(call));
+    }
+}
+
+/// Finds surfaces, unless the reference configuration has fixed them, and their normals.
+fn find_surface(fixed: bool, reference: bool, calls: &mut Vec<Call>) {
+    let passes = [Pass::FindSurface, Pass::FindNormals].into_iter().skip(usize::from(fixed));
+    calls.extend(passes.map(|pass| Call { pass, stage: Stage { reference, ..Stage::default() } }));
 }
 
 /// Contact of surfaces: what acts on the facets, and what the bonds carry of it.
@@ -100,6 +122,15 @@ pub fn prepare(method: &Method) -> Vec<Call> {
             calls.push(call(Pass::AttachFacets));
         }
     }
+    if let Some(zones) = method.contact.zones {
+        let initial = zones.normals == Normals::Initial;
+        if method.kind == Kind::Eulerian && initial {
+            order(true, &mut calls);
+        }
+        if method.kind == Kind::TotalLagrangian || initial {
+            find_surface(false, true, &mut calls);
+        }
+    }
     calls
 }
 
@@ -110,7 +141,9 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
         corrected_kernel::begin_segment(options, &mut calls);
     }
     if method.kind == Kind::Eulerian {
-        order(false, &mut calls);
+        sort(false, &mut calls);
+        calls.push(call(Pass::Reorder));
+        list_present(method, &mut calls);
     }
     if method.gap.is_some() {
         calls.push(call(Pass::PlaceFacets));
@@ -126,13 +159,13 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
     calls
 }
 
-/// Lists contacts. Does nothing while the present list holds.
+/// Lists contacts, where no list of neighbours follows the particles. Does nothing while the present list holds.
 fn find_contacts(method: &Method, calls: &mut Vec<Call>) {
-    if method.contact.is_none() && method.gap.is_none() {
+    if method.list_follows() || !(method.contact.any() || method.gap.is_some()) {
         return;
     }
     sort(false, calls);
-    if method.contact.is_some() {
+    if method.contact.any() {
         calls.push(call(Pass::FindContacts));
     }
     if method.gap.is_some() {
@@ -143,6 +176,14 @@ fn find_contacts(method: &Method, calls: &mut Vec<Call>) {
 fn move_obstacles(method: &Method, calls: &mut Vec<Call>) {
     if method.obstacles {
         calls.push(call(Pass::MoveObstacles));
+    }
+}
+
+/// Lists neighbours where the particles are now, and from the same cells what they may touch.
+fn list_present(method: &Method, calls: &mut Vec<Call>) {
+    list(false, calls);
+    if method.contact.any() {
+        calls.push(call(Pass::FindContacts));
     }
 }
 
@@ -207,7 +248,7 @@ fn leapfrog(method: &Method) -> Vec<Call> {
         calls.push(call(Pass::SmoothVelocity));
     }
     calls.push(call(Pass::Drift));
-    list(false, &mut calls);
+    list_present(method, &mut calls);
     calls.push(call(Pass::StrainRate));
     if stress_evolves(method) {
         calls.push(call(Pass::Stress));
@@ -262,7 +303,7 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
     let eulerian = method.kind == Kind::Eulerian;
     let mut calls = Vec::new();
     if method.list_follows() {
-        list(false, &mut calls);
+        list_present(method, &mut calls);
     }
     for (k, &stage) in stages.iter().enumerate() {
         if eulerian {
@@ -288,10 +329,13 @@ fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
 /// integrator leaves at one of its stages.
 pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
     let mut calls = Vec::new();
-    let behind = method.finite_strain() && method.integrator != Integrator::Leapfrog;
+    let behind = method.integrator != Integrator::Leapfrog;
     let integrated = method.corrected_kernel.is_some_and(|options| options.evolved());
-    let dependent = [Field::Acceleration, Field::ContactEnergy, Field::DisplacementGradient];
-    let dependent = if integrated { &dependent[..1] } else { &dependent };
+    let dependent = match method.kind {
+        Kind::Eulerian => &[Field::ContactEnergy][..],
+        _ if integrated => &[Field::Acceleration],
+        _ => &[Field::Acceleration, Field::ContactEnergy, Field::DisplacementGradient],
+    };
     if behind && wanted.iter().any(|field| dependent.contains(field)) {
         force(method, &mut calls);
     }
@@ -315,7 +359,10 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (true, &[Cell, NeighborCount]),
         (eulerian, &[VolumetricStrain, VelocityGradient]),
         (method.listed_again(), &[ListedDisplacement]),
-        (method.contact.is_some(), &[ContactCount, ContactEnergy]),
+        (method.contact.any(), &[ContactCount]),
+        (method.contact.with_energy(), &[ContactEnergy]),
+        (method.contact.colour_field, &[ColourExcess]),
+        (method.contact.zones.is_some(), &[Surface, SurfaceNormal]),
         (method.facets(), &[FirstFacet, Field::Facets, FacetOwner, FacetReferencePosition, FacetReferenceNormal, FacetArea]),
         (method.facets(), &[FacetDisplacement, FacetMove, FacetNormal, FacetForce, FacetMoment, FacetPressure, FacetEnergy]),
         (method.facets(), &[ContactEnergy]),

@@ -4,7 +4,7 @@ use lithosph::backend::shader::{compose, offsets};
 use lithosph::facet::FacetPair;
 use lithosph::pass::Pass;
 use lithosph::scene::Scene;
-use lithosph::state::{Balance, Body, Clock, Constraint, Method, Mover, Params};
+use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Method, Mover, Params};
 use std::mem::offset_of;
 
 /// The text of a pass that uses every structure.
@@ -37,7 +37,7 @@ macro_rules! assert_mirrors {
 fn params_mirror_the_shader_s() {
     assert_mirrors!(Params:
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-        artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
+        artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, surface_count, corner_count, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
         body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, facet_reach, contact_rate, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
         artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate,
     );
@@ -51,6 +51,12 @@ fn bodies_mirror_the_shader_s() {
         law, padding, density, bulk_modulus, shear_modulus, youngs_modulus, relaxation, yield_stress, hardening,
         hardening_exponent, sound_speed, smoothing_length);
     assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
+}
+
+#[test]
+fn contact_pairs_mirror_the_shader_s() {
+    assert_mirrors!(ContactPair: law, exponent, strength, range, threshold, friction);
+    assert_eq!(size_of::<ContactPair<f32>>(), span("ContactPair") as usize);
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 ";
 
 fn text(dimension: usize) -> String {
-    compose_text("obstacle_test", SHADER, &Choice { flags: &[], dimension, smoothing: "", potential: "", laws: &[] })
+    compose_text("obstacle_test", SHADER, &Choice { flags: &[], dimension, smoothing: "", potentials: &[], laws: &[] })
 }
 
 #[test]

@@ -103,7 +103,8 @@ fn passes_agree_in_three_dimensions() {
 
 /// Every word that any method can have.
 fn all_flags() -> BTreeSet<&'static str> {
-    use lithosph::contact::Potential;
+    use lithosph::contact::zones::{Form, Normals, Options};
+    use lithosph::contact::{Laws, Potential};
     use lithosph::material::Law;
     use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
     use lithosph::scene::file::{ArtificialForm, Density, Descent, Gradient, Kind};
@@ -141,7 +142,11 @@ fn all_flags() -> BTreeSet<&'static str> {
             xsph: true,
             velocity_filter: true,
             artificial_stress: Some(form),
-            contact: Some(Potential::Barrier),
+            contact: Laws {
+                potentials: vec![Potential::Barrier],
+                colour_field: true,
+                zones: Some(Options { form: Form::Printed, normals: Normals::All, friction: true }),
+            },
             gap: Some(lithosph::facet::GapForm::AlongNormals),
             obstacles: true,
             friction: true,

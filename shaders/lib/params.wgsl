@@ -20,6 +20,8 @@ struct Params {
     facet_capacity: u32,
     obstacle_count: u32,
     facet_alike: u32,
+    surface_count: u32,
+    corner_count: u32,
     zero: u32,
     origin_x: real,
     origin_y: real,
@@ -69,8 +71,12 @@ struct Body {
 }
 
 struct ContactPair {
+    law: u32,
+    exponent: u32,
     strength: real,
     range: real,
+    threshold: real,
+    friction: real,
 }
 
 struct FacetPair {
@@ -123,6 +129,10 @@ struct Balance {
     downhill: u32,
     padding: u32,
 }
+
+// Laws of contact that are no potentials. Twin: src/contact/mod.rs
+const COLOUR_FIELD: u32 = 100u;
+const ZONES: u32 = 101u;
 
 const LIST_FULL: u32 = 1u;
 const NOT_FINITE: u32 = 2u;

@@ -1,10 +1,16 @@
-// Adds the acceleration by contact, m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, and finds each
-// particle's half of the pairs' energy. Twin: src/pass/contact_force.rs
+// Adds the acceleration by contacts that have an energy, and finds each particle's part of it. By a potential
+// m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, half of the pairs' energy; by the colour field
+// m_a a_a -= sum k V_a V_b (<c_a - c0> + <c_b - c0>) grad_a W_ab, (k/2) V_a <c_a - c0>^2. Twin: src/pass/contact_force.rs
 #import invocation
 #import separation
 #import mass
 #import contact_pair
+#if potentials
 #import potential
+#endif
+#if colour_field
+#import kernel
+#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -12,6 +18,9 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read> contacts: array<u32>;
 @group(0) @binding(_) var<storage, read> contact_count: array<u32>;
+#if colour_field
+@group(0) @binding(_) var<storage, read> colour_excess: array<real>;
+#endif
 @group(0) @binding(_) var<storage, read_write> contact_energy: array<real>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
@@ -24,17 +33,34 @@ fn main(invocation: Invocation) {
     let listed = contact_count[a];
     var energy: real = 0.0;
     var force = Vec();
+    var stiffness: real = 0.0;
     for (var k = 0u; k < listed; k++) {
         let b = contacts[k * params.count + a];
         let pair = contact_pair(a, b);
         let x = separation(reference_position[a], displacement[a], b, displacement[b]);
         let distance = sqrt(inner(x, x));
-        if distance < pair.range {
-            let at = potential(distance / pair.range);
+        if distance >= pair.range {
+            continue;
+        }
+#if colour_field
+        if pair.law == COLOUR_FIELD {
+            stiffness = pair.strength;
+            let volumes = reference_volume[a] * reference_volume[b];
+            let slope = gradient(distance, 0.5 * pair.range);
+            force -= x * (pair.strength * volumes * (colour_excess[a] + colour_excess[b]) * slope);
+        }
+#endif
+#if potentials
+        if pair.law < COLOUR_FIELD {
+            let at = potential(pair, distance / pair.range);
             energy += 0.5 * pair.strength * at.x;
             force += x * (pair.strength * at.y / (pair.range * distance));
         }
+#endif
     }
+#if colour_field
+    energy += 0.5 * stiffness * reference_volume[a] * colour_excess[a] * colour_excess[a];
+#endif
     contact_energy[a] = energy;
     if listed > 0u {
         acceleration[a] += force * (1.0 / mass(a));

@@ -7,6 +7,7 @@
 //! `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
 //! are bound by the variables' names, which [`Shader::entry`] tells.
 
+mod contacts;
 mod laws;
 
 use crate::contact::Potential;
@@ -29,9 +30,10 @@ macro_rules! library {
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
         descent, displacement_difference, facet, facet_lever, facet_pair, half_kick, hourglass_stiffness, inverse, invocation,
-        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, pair, pair_velocity, params, real,
+        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, own_neighbor, pair, pair_velocity, params, real,
         separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;
+    contact: zones;
     material: elastic, hardening, j2, maxwell, neo_hookean, radial_return, st_venant_kirchhoff, volumetric_stress;
 }
 
@@ -56,6 +58,11 @@ const FLAGS: &[&str] = &[
     "along_normals",
     "obstacles",
     "friction",
+    "potentials",
+    "colour_field",
+    "zones_printed",
+    "zones_all",
+    "zones_friction",
     "listed_again",
     "memory",
     "plastic",
@@ -91,8 +98,8 @@ pub struct Choice<'a> {
     pub dimension: usize,
     /// Text for `#import smoothing`.
     pub smoothing: &'a str,
-    /// Text for `#import potential`.
-    pub potential: &'a str,
+    /// What `#import potential` chooses from, in order of their numbers.
+    pub potentials: &'a [Potential],
     /// What `#import laws` chooses from, in order of their numbers.
     pub laws: &'a [Law],
 }
@@ -107,7 +114,7 @@ pub fn compose(pass: Pass, method: &Method) -> String {
         dimension: method.dimension,
         smoothing: method.smoothing.source(),
         laws: &method.laws,
-        potential: method.contact.map_or("", Potential::source),
+        potentials: &method.contact.potentials,
     };
     compose_text(pass.name(), pass.source(), &choice)
 }
@@ -169,7 +176,7 @@ impl Composer<'_> {
     fn find(&self, import: &str) -> Option<String> {
         let stem = match import {
             "smoothing" => return Some(self.choice.smoothing.to_string()),
-            "potential" => return Some(self.choice.potential.to_string()),
+            "potential" => return Some(contacts::text(self.choice.potentials)),
             "laws" => return Some(laws::text(self.choice.laws)),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),

@@ -5,7 +5,7 @@ use crate::tensor::Real;
 
 /// phi and -phi'.
 #[inline(always)]
-pub fn at<R: Real>(q: R) -> (R, R) {
+pub fn at<R: Real>(q: R, _: u32) -> (R, R) {
     let (left, logarithm) = (R::of(1.0) - q, q.ln());
     (-left * left * logarithm, left * (left / q - R::of(2.0) * logarithm))
 }

@@ -1,11 +1,17 @@
 //! Contact between surfaces: what two particles that were no neighbours do to each other when they come close.
 //! Twin: shaders/contact/
 //!
-//! Each law is a central pair potential U = strength phi(r/range), zero from the range on. A force derived from one
-//! keeps energy, momentum and angular momentum; see each law's file for what it is good for.
+//! A scene chooses a law for each pair of bodies. Most laws are central pair potentials U = strength phi(r/range),
+//! zero from the range on. A force derived from one keeps energy, momentum and angular momentum; see each law's file
+//! for what it is good for. Beside them [`colour_field`], an energy of many particles, keeps the same. Fuller's [`zones`]
+//! push along estimated normals and have no energy: they are here to show what that loses.
 
 mod barrier;
+pub mod colour_field;
+mod power;
 mod quadratic;
+pub mod repulsive;
+pub mod zones;
 
 use crate::tensor::Real;
 use serde::{Deserialize, Serialize};
@@ -13,7 +19,7 @@ use serde::{Deserialize, Serialize};
 macro_rules! potentials {
     ($($word:ident: $name:ident, $about:literal;)*) => {
         /// Names the pair potentials.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[serde(rename_all = "snake_case")]
         pub enum Potential { $($name),* }
 
@@ -32,8 +38,8 @@ macro_rules! potentials {
             }
             /// phi and -phi' at q = r/range, 0 < q < 1.
             #[inline(always)]
-            pub fn at<R: Real>(self, q: R) -> (R, R) {
-                match self { $(Potential::$name => $word::at(q)),* }
+            pub fn at<R: Real>(self, q: R, exponent: u32) -> (R, R) {
+                match self { $(Potential::$name => $word::at(q, exponent)),* }
             }
         }
     };
@@ -41,8 +47,41 @@ macro_rules! potentials {
 
 potentials! {
     barrier: Barrier, "-(1 - q)^2 ln q: no energy suffices to bring two particles together";
+    power: Power, "(1 - q)^2.5: the force grows with the power 1.5 of the overlap";
     quadratic: Quadratic, "(1 - q)^2: soft; with a range of several spacings, the most slippery on fitted surfaces";
+    repulsive: Repulsive, "(W(r)/W(h))^(n + 1), 2h the range: Strand's repulsive force, finite where particles meet";
 }
+
+/// Laws beside the potentials: word in a scene, and what they do.
+pub const OTHERS: [(&str, &str); 2] = [
+    ("colour_field", "(k/2) sum V <c - c0>^2 of the other body's colour c: smooth over many particles"),
+    ("zones", "Fuller's forces along estimated normals: keep momentum, lose energy and angular momentum"),
+];
+
+/// The laws of contact that a scene names.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Laws {
+    /// Each once, in order of their numbers.
+    pub potentials: Vec<Potential>,
+    pub colour_field: bool,
+    pub zones: Option<zones::Options>,
+}
+
+impl Laws {
+    /// Some bodies touch.
+    pub fn any(&self) -> bool {
+        self.with_energy() || self.zones.is_some()
+    }
+    /// Some bodies touch by a law that has an energy.
+    pub fn with_energy(&self) -> bool {
+        !self.potentials.is_empty() || self.colour_field
+    }
+}
+
+/// Number of the law [`colour_field`] in the table of pairs. Twin: `shaders/lib/params.wgsl`
+pub const COLOUR_FIELD: u32 = 100;
+/// Number of the law [`zones`]. Twin: as above.
+pub const ZONES: u32 = 101;
 
 #[cfg(test)]
 mod tests {
@@ -51,14 +90,15 @@ mod tests {
     #[test]
     fn every_force_is_the_derivative_of_its_potential_and_ends_smoothly() {
         for &potential in Potential::ALL {
+            let at = |q: f64| potential.at(q, repulsive::EXPONENT);
             for k in 1..100 {
                 let (q, step) = (k as f64 * 0.01, 1e-6);
-                let difference = (potential.at(q - step).0 - potential.at(q + step).0) / (2.0 * step);
-                let (energy, force) = potential.at(q);
+                let difference = (at(q - step).0 - at(q + step).0) / (2.0 * step);
+                let (energy, force) = at(q);
                 assert!((force - difference).abs() < 1e-6 * difference.max(1.0), "{potential:?} at {q}: {force} {difference}");
                 assert!(energy > 0.0 && force > 0.0);
             }
-            let (energy, force) = potential.at(1.0 - 1e-9);
+            let (energy, force) = at(1.0 - 1e-9);
             assert!(energy < 1e-17 && force < 1e-8);
         }
     }

@@ -4,7 +4,7 @@ use crate::tensor::Real;
 
 /// phi and -phi'.
 #[inline(always)]
-pub fn at<R: Real>(q: R) -> (R, R) {
+pub fn at<R: Real>(q: R, _: u32) -> (R, R) {
     let left = R::of(1.0) - q;
     (left * left, R::of(2.0) * left)
 }

@@ -1,36 +1,69 @@
-//! Adds the acceleration by contact, m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, and finds each
-//! particle's half of the pairs' energy. Twin: shaders/pass/contact_force.wgsl
+//! Adds the acceleration by contacts that have an energy, and finds each particle's part of it. By a potential
+//! m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, half of the pairs' energy; by the colour field see
+//! [`crate::contact::colour_field`]. Twin: shaders/pass/contact_force.wgsl
 
-use super::Stage;
+use super::{GRAIN, Stage};
+use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
-use crate::state::State;
+use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::state::{ContactPair, State};
 use crate::tensor::{Real, Space};
+use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    let Some(potential) = state.method.contact.filter(|_| state.clock.running == 1) else { return };
+    if state.clock.running == 0 {
+        return;
+    }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
     let mut energies = std::mem::take(&mut state.particles.contact_energy);
-    let count = state.params.count as usize;
-    for a in 0..count {
-        energies[a] = S::Real::of(0.0);
-        let listed = state.particles.contact_count[a] as usize;
-        if listed == 0 {
-            continue;
+    let columns = accelerations.par_iter_mut().zip(&mut energies).enumerate();
+    columns.with_min_len(GRAIN).for_each(|(a, (acceleration, energy))| {
+        *energy = S::Real::of(0.0);
+        if state.particles.contact_count[a] > 0 {
+            let (force, stored) = sum(state, a);
+            *acceleration += force * (S::Real::of(1.0) / state.mass(a));
+            *energy = stored;
         }
-        let mut force = S::Vec::default();
-        for k in 0..listed {
-            let b = state.contacts[k * count + a];
-            let pair = state.contact_pair(a, b as usize);
-            let x = separation(state, a, b);
-            let distance = S::inner(x, x).sqrt();
-            if distance < pair.range {
-                let (energy, slope) = potential.at(distance / pair.range);
-                energies[a] += S::Real::of(0.5) * pair.strength * energy;
-                force += x * (pair.strength * slope / (pair.range * distance));
-            }
-        }
-        accelerations[a] += force * (S::Real::of(1.0) / state.mass(a));
-    }
+    });
     state.particles.acceleration = accelerations;
     state.particles.contact_energy = energies;
+}
+
+/// Force on a particle, and its part of the energy.
+fn sum<S: Space>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
+    let (mut force, mut energy) = (S::Vec::default(), S::Real::of(0.0));
+    let (half, mut colour) = (S::Real::of(0.5), None);
+    for b in state.contacts_of(a) {
+        let pair = state.contact_pair(a, b);
+        let x = separation(state, a, b as u32);
+        let distance = S::inner(x, x).sqrt();
+        if distance >= pair.range {
+            continue;
+        }
+        if pair.law == COLOUR_FIELD {
+            colour = Some(pair.strength);
+            force += x * with_kernel!(state.method.smoothing, K => by_colour::<S, K>(state, pair, (a, b), distance));
+        } else if let Some(potential) = Potential::ALL.get(pair.law as usize) {
+            let (stored, slope) = potential.at(distance / pair.range, pair.exponent);
+            energy += half * pair.strength * stored;
+            force += x * (pair.strength * slope / (pair.range * distance));
+        }
+    }
+    if let Some(stiffness) = colour {
+        let excess = state.particles.colour_excess[a];
+        energy += half * stiffness * state.particles.reference_volume[a] * excess * excess;
+    }
+    (force, energy)
+}
+
+/// -k V_a V_b (<c_a - c0> + <c_b - c0>) (dW/dr)/r
+fn by_colour<S: Space, K: Kernel>(
+    state: &State<S>,
+    pair: &ContactPair<S::Real>,
+    (a, b): (usize, usize),
+    distance: S::Real,
+) -> S::Real {
+    let (volume, excess) = (&state.particles.reference_volume, &state.particles.colour_excess);
+    let slope = Scaled::<S::Real>::new::<K>(S::DIMENSION).gradient::<K>(distance, S::Real::of(0.5) * pair.range);
+    S::Real::of(-1.0) * pair.strength * volume[a] * volume[b] * (excess[a] + excess[b]) * slope
 }

@@ -7,30 +7,50 @@ use super::find_neighbors::visit_cells;
 use crate::pair::{reference_separation, separation};
 use crate::state::{Fault, State};
 use crate::tensor::{Real, Space};
+use rayon::prelude::*;
+
+/// Particles whose lists are found together.
+const CHUNK: usize = 256;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
-    let count = state.params.count as usize;
-    let mut contacts = std::mem::take(&mut state.contacts);
     let mut counts = std::mem::take(&mut state.particles.contact_count);
-    let mut found = vec![Vec::new(); count];
-    super::write(&mut found, |a, list| list_one(state, a, list));
-    for (a, list) in found.iter().enumerate() {
-        if list.len() > state.params.contact_capacity as usize {
+    // What a chunk has found lies together; few particles find any.
+    let found: Vec<Option<Vec<u32>>> =
+        counts.par_chunks_mut(CHUNK).enumerate().map(|(k, counts)| list_chunk(state, k * CHUNK, counts)).collect();
+    let count = counts.len();
+    for (first, list) in (0..).step_by(CHUNK).zip(&found) {
+        let Some(list) = list else {
             state.clock.fault = Fault::ListFull as u32;
-            counts[a] = 0;
             continue;
-        }
-        counts[a] = list.len() as u32;
-        for (k, &b) in list.iter().enumerate() {
-            contacts[k * count + a] = b;
+        };
+        let mut rest = list.iter();
+        for a in (first..count.min(first + CHUNK)).take_while(|_| !list.is_empty()) {
+            for (k, &b) in rest.by_ref().take(counts[a] as usize).enumerate() {
+                state.contacts[k * count + a] = b;
+            }
         }
     }
-    state.contacts = contacts;
     state.particles.contact_count = counts;
     state.particles.listed_displacement.clone_from(&state.particles.displacement);
+}
+
+/// The lists of a chunk of particles, one after the other, and their lengths; None if one is too long.
+fn list_chunk<S: Space>(state: &State<S>, first: usize, counts: &mut [u32]) -> Option<Vec<u32>> {
+    let (mut list, mut full) = (Vec::new(), false);
+    for (k, count) in counts.iter_mut().enumerate() {
+        let before = list.len();
+        list_one(state, first + k, &mut list);
+        *count = (list.len() - before) as u32;
+        if *count > state.params.contact_capacity {
+            full = true;
+            list.truncate(before);
+            *count = 0;
+        }
+    }
+    if full { None } else { Some(list) }
 }
 
 fn list_one<S: Space>(state: &State<S>, a: usize, list: &mut Vec<u32>) {

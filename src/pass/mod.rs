@@ -25,6 +25,8 @@ mod filter_velocity;
 mod find_contacts;
 mod find_facet_contacts;
 mod find_neighbors;
+mod find_normals;
+mod find_surface;
 mod force;
 mod hourglass_energy;
 mod keep_gradients;
@@ -35,6 +37,7 @@ mod measure_gap;
 mod move_obstacles;
 mod place_facets;
 mod press_facets;
+mod push_intruders;
 mod reorder;
 mod runge_kutta;
 mod scan_cells;
@@ -47,9 +50,11 @@ mod specific_stress;
 mod strain_rate;
 mod stress;
 mod stress_rate;
+mod sum_colour;
 mod sum_density;
 mod surface_force;
 mod touch_obstacles;
+mod zone_force;
 
 pub use bound_residual::{force_scale, unbalanced};
 
@@ -193,6 +198,7 @@ passes! {
     shape_stress: ShapeStress, [main: Particles], "stress that the gradients of the shape functions carry";
     shape_force: ShapeForce, [main: Listed], "acceleration by the shape functions' gradients, Shutov & Klyuchantsev (5)";
     find_contacts: FindContacts, [main: Particles], "lists the particles that each particle may touch";
+    sum_colour: SumColour, [main: Particles], "how far the colour of the bodies touched exceeds its threshold";
     contact_force: ContactForce, [main: Particles], "adds the acceleration by contact";
     attach_facets: AttachFacets, [main: Particles], "tells each facet the particle that carries it";
     keep_listed: KeepListed, [main: Particles], "keeps the displacements at which the list of facets is made";
@@ -205,6 +211,10 @@ passes! {
     carry_facets: CarryFacets, [main: Particles], "adds to what the bonds carry the stress that the facets' levers make";
     surface_force: SurfaceForce, [main: Particles], "adds the acceleration by the facets that a particle carries";
     load_obstacles: LoadObstacles, [blocks: FacetBlocks, total: One], "sums the force on each rigid obstacle";
+    find_surface: FindSurface, [main: Listed], "finds surfaces and corners by the number of neighbours, Fuller 4.3.1";
+    find_normals: FindNormals, [main: Listed], "normals of surface particles, Fuller (4.1)";
+    push_intruders: PushIntruders, [main: Listed], "force of the zone of each surface particle on those inside, Fuller (4.2), (4.3)";
+    zone_force: ZoneForce, [main: Particles], "adds the acceleration by zones";
     smooth_velocity: SmoothVelocity, [main: Listed], "velocity averaged over neighbours, Fuller (3.2)";
     filter_velocity: FilterVelocity, [main: Particles], "puts the smoothed velocity in the velocity's place";
     kick: Kick, [main: Particles], "advances the velocity by a part of the step";

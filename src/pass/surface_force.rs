@@ -12,7 +12,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
     let mut energies = std::mem::take(&mut state.particles.contact_energy);
     let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
-    let beside = !state.method.contact.is_none();
+    let beside = state.method.contact.with_energy();
     super::write(&mut energies, |a, energy| {
         let own = state.facets_of(a).fold(S::Real::of(0.0), |sum, e| sum + state.particles.facet_energy[e]);
         *energy = if beside { *energy + own } else { own };

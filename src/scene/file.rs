@@ -3,6 +3,7 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
+use super::contacts::{ColourField, Zones};
 use super::copies::Copies;
 use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
@@ -397,6 +398,17 @@ pub struct Contact {
     pub potential: Option<PairPotential>,
     /// Surfaces keep apart by their facets.
     pub gap: Option<SurfaceGap>,
+    /// Energy of the other body's colour.
+    pub colour_field: Option<ColourField>,
+    /// Forces along the surface's normals.
+    pub zones: Option<Zones>,
+}
+
+impl Contact {
+    /// Some law is named beside the kernel.
+    pub fn touches(&self) -> bool {
+        self.potential.is_some() || self.colour_field.is_some() || self.zones.is_some()
+    }
 }
 
 /// Energy of facets that are in another body's surface: see `src/facet.rs`.
@@ -476,6 +488,8 @@ pub struct PairPotential {
     pub stiffness: f64,
     /// In spacings.
     pub range: f64,
+    /// n of the law `repulsive`; 4 unless given. Its stiffness is k times density^2 over Young's modulus.
+    pub exponent: Option<u32>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -3,6 +3,7 @@
 mod carve;
 mod check;
 mod clip;
+pub mod contacts;
 mod copies;
 pub mod corrected_kernel;
 pub mod facets;

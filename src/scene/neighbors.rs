@@ -17,9 +17,20 @@ impl Scene {
         let count = |i: usize| {
             let x = self.particles[i].position;
             let images = (0..1u32 << self.planes.len()).map(|image| mirrored(&self.planes, image, x));
-            images.map(|x| grid.count(self, x, self.particles[i].body)).sum::<u32>() - 1
+            images.map(|x| grid.count(self, x, self.particles[i].body, reach)).sum::<u32>() - 1
         };
         (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
+    }
+
+    /// Most particles that one of any body has inside the support of its kernel, with none at the very end.
+    pub(super) fn most_supported(&self) -> u32 {
+        let reach = 2.0 * self.smoothing_length() / ROUNDING;
+        let grid = Grid::new(self, reach);
+        let count = |particle: &super::Particle| {
+            let own = 2.0 * self.bodies[particle.body as usize].smoothing_length / ROUNDING;
+            grid.count(self, particle.position, particle.body, own) - 1
+        };
+        self.particles.par_iter().map(count).max().unwrap_or(0)
     }
 }
 
@@ -34,7 +45,6 @@ fn mirrored(planes: &[Plane], image: u32, mut x: DVec3) -> DVec3 {
 
 /// Particles by cells at least as wide as the reach.
 struct Grid {
-    reach: f64,
     side: DVec3,
     /// Cells along each periodic axis, 0 where it is open.
     wrap: IVec3,
@@ -48,7 +58,7 @@ impl Grid {
         let wrap = (period / reach).floor().as_ivec3();
         let divided = |k: usize| if wrap[k] > 0 { period[k] / f64::from(wrap[k]) } else { reach };
         let side = DVec3::new(divided(0), divided(1), divided(2));
-        let mut grid = Self { reach, side, wrap, period, cells: HashMap::new() };
+        let mut grid = Self { side, wrap, period, cells: HashMap::new() };
         for (i, particle) in scene.particles.iter().enumerate() {
             let cell = grid.wrapped((particle.position / side).floor().as_ivec3());
             grid.cells.entry(cell).or_default().push(i as u32);
@@ -61,8 +71,8 @@ impl Grid {
         IVec3::new(axis(0), axis(1), axis(2))
     }
 
-    /// Particles of a body within reach of a point.
-    fn count(&self, scene: &Scene, x: DVec3, body: u32) -> u32 {
+    /// Particles of a body within a distance, at most the grid's, of a point.
+    fn count(&self, scene: &Scene, x: DVec3, body: u32, reach: f64) -> u32 {
         let center = (x / self.side).floor().as_ivec3();
         let range = |k: usize| if k < scene.dimension() { -1..=1 } else { 0..=0 };
         let mut found = 0;
@@ -72,7 +82,7 @@ impl Grid {
                     let cell = self.wrapped(center + IVec3::new(dx, dy, dz));
                     let near = |&&i: &&u32| {
                         let other = &scene.particles[i as usize];
-                        other.body == body && self.distance(x, other.position) < self.reach
+                        other.body == body && self.distance(x, other.position) < reach
                     };
                     found += self.cells.get(&cell).map_or(0, |list| list.iter().filter(near).count()) as u32;
                 }

@@ -1,5 +1,6 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
+use super::contacts;
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel::{self, Configuration};
 use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
@@ -10,7 +11,7 @@ use super::shape::used;
 use super::surfaces::Parts;
 use super::{Body, Constraint, Particle, Plane, Scene, file, quasi_static};
 use crate::material::Law;
-use crate::state::{ContactPair, Method};
+use crate::state::Method;
 use glam::DVec3;
 use std::sync::OnceLock;
 
@@ -24,7 +25,7 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let mut particles = pack(&file, &bodies, &refuse)?;
     let mut constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
     let coupling = coupling(&file, &bodies, &refuse)?;
-    let contacts = contacts(&file, &bodies, &refuse)?;
+    let contacts = contacts::pairs(&file, &bodies, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
     let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, refuse: &refuse };
@@ -296,10 +297,7 @@ fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse:
         let at = k.to_string();
         let path = ["boundary", &at];
         let name = typed.name.clone().unwrap_or_else(|| format!("boundary {}", k + 1));
-        let wanted = match &typed.select.body {
-            None => None,
-            Some(word) => Some(named(bodies, word)),
-        };
+        let wanted = typed.select.body.as_ref().map(|word| named(bodies, word));
         if let (Some([]), Some(word)) = (wanted.as_deref(), &typed.select.body) {
             let hint = hint(word, &names(bodies));
             return Err(refuse.at(&path, format!("`{name}` selects no body named `{word}`{hint}")));
@@ -368,11 +366,9 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
         if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
             return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
         }
-        refuse.unless(
-            contact.kernel.is_some() || contact.potential.is_some() || contact.gap.is_some(),
-            &["contact", &at],
-            || "a contact needs kernel, potential or gap".into(),
-        )?;
+        refuse.unless(contact.kernel.is_some() || contact.touches() || contact.gap.is_some(), &["contact", &at], || {
+            "a contact needs kernel, potential, colour_field, zones or gap".into()
+        })?;
         let Some(kernel) = contact.kernel else { continue };
         let touching = pairs(bodies, &contact.between);
         refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
@@ -384,39 +380,6 @@ fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64
         })?;
         for (a, b) in touching {
             (table[a][b], table[b][a]) = (kernel, kernel);
-        }
-    }
-    Ok(table)
-}
-
-/// Pair potentials between bodies; [`coupling`] has looked at the names.
-fn contacts(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
-    let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
-    let named = file.contact.iter().enumerate().filter_map(|(k, contact)| Some((k, contact, contact.potential.as_ref()?)));
-    let mut law = None;
-    for (k, contact, potential) in named {
-        let at = k.to_string();
-        let path = ["contact", &at, "potential"];
-        refuse.unless(file.formulation.kind == Kind::TotalLagrangian, &path, || {
-            "contact by a potential needs formulation.kind `total_lagrangian`".into()
-        })?;
-        refuse.unless(file.symmetry.is_empty(), &path, || {
-            "contact by a potential does not see mirror images: no [[symmetry]]".into()
-        })?;
-        refuse.unless(*law.get_or_insert(potential.law) == potential.law, &path, || {
-            "all contacts of a scene share one law".into()
-        })?;
-        for (key, value) in [("stiffness", potential.stiffness), ("range", potential.range)] {
-            refuse.unless(value > 0.0 && value.is_finite(), &["contact", &at, "potential", key], || {
-                format!("{key} must be a positive number, found {value}")
-            })?;
-        }
-        for (a, b) in pairs(bodies, &contact.between) {
-            let spacing = 0.5 * (bodies[a].spacing + bodies[b].spacing);
-            let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
-            let strength = potential.stiffness * modulus * spacing.powi(file.dimension as i32);
-            let pair = ContactPair { strength, range: potential.range * spacing };
-            (table[a][b], table[b][a]) = (pair, pair);
         }
     }
     Ok(table)
@@ -499,7 +462,7 @@ fn method(
         symmetry: !planes.is_empty(),
         periodic: period.iter().any(|&p| p > 0.0),
         body_force,
-        contact: file.contact.iter().find_map(|contact| contact.potential.as_ref()).map(|p| p.law),
+        contact: contacts::laws(file),
         gap: file.contact.iter().find_map(|contact| contact.gap.as_ref()).map(|gap| gap.form),
         obstacles: !file.obstacle.is_empty(),
         friction: rubs(file),
@@ -555,7 +518,7 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     refuse.unless(!quadratic || (lagrangian && file.symmetry.is_empty()), &["formulation", "gradient"], || {
         "the quadratic gradient belongs to formulation.kind `total_lagrangian`, and does not see mirror images: no [[symmetry]]".into()
     })?;
-    let touches = file.contact.iter().any(|contact| contact.potential.is_some() || contact.gap.is_some());
+    let touches = file.contact.iter().any(|contact| contact.touches() || contact.gap.is_some());
     refuse.unless(!lagrangian || touches || f.list_margin.is_none(), &["formulation", "list_margin"], || {
         "list_margin is that of a list that follows the particles: a Total Lagrangian scene has one only where bodies touch"
             .into()

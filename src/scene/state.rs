@@ -4,7 +4,7 @@ use super::Scene;
 use super::file::Viscosity;
 use crate::bond::BondTable;
 use crate::particles::{Field, Particles, Set, Type};
-use crate::state::{Balance, Body, Clock, Constraint, Method, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Method, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
 use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
@@ -30,6 +30,7 @@ impl Scene {
         let (count, cells) = (self.particles.len(), params.cell_total as usize);
         let real = S::Real::of;
         let kept = if keeps_gradients(&method) { count * params.list_capacity as usize } else { 0 };
+        let zone_forces = if method.contact.zones.is_some() { count * params.contact_capacity as usize } else { 0 };
         let mut state = State {
             particles: Particles::allocate(params.counts(), &step::fields(&method)),
             method,
@@ -52,6 +53,7 @@ impl Scene {
             cell_particles: vec![0; count],
             neighbors: vec![0; count * params.list_capacity as usize],
             contacts: vec![0; count * params.contact_capacity as usize],
+            zone_forces: vec![S::Vec::default(); zone_forces],
             kept_neighbors: vec![0; kept],
             kept_gradients: vec![S::Vec::default(); kept],
             bond_table: BondTable::default(),
@@ -77,8 +79,12 @@ impl Scene {
         let of = |set: Set| step::fields(&method).into_iter().filter(|f| f.set() == set).map(bytes).sum::<usize>();
         let (columns, facet) = (of(Set::Particle), of(Set::Facet) + 4 * params.facet_capacity as usize);
         let lists = params.list_capacity + params.contact_capacity;
+        let force = if method.contact.zones.is_some() { word * Type::Vec.words_in(self.dimension()) } else { 0 };
         let kept = if keeps_gradients(&method) { 4 + word * Type::Vec.words_in(self.dimension()) } else { 0 };
-        let particle = (columns + 4 * (1 + lists as usize) + kept * params.list_capacity as usize) as u64;
+        let particle = (columns
+            + 4 * (1 + lists as usize)
+            + kept * params.list_capacity as usize
+            + force * params.contact_capacity as usize) as u64;
         particle * self.particles.len() as u64 + (facet * self.facets.len()) as u64 + 8 * u64::from(params.cell_total)
     }
 
@@ -164,14 +170,17 @@ impl Scene {
 
     /// How far beyond the range of what acts the list that follows the particles reaches.
     fn margin(&self) -> f64 {
-        let usual =
-            if self.method.contact.is_some() || self.method.gap.is_some() { CONTACT_MARGIN } else { self.file.list_margin() };
+        let usual = if (self.method.contact.any() && !self.method.list_follows()) || self.method.gap.is_some() {
+            CONTACT_MARGIN
+        } else {
+            self.file.list_margin()
+        };
         self.file.formulation.list_margin.unwrap_or(usual) * self.smoothing_length()
     }
 
     /// Distance up to which pairs enter the list of contacts; 0 where nothing touches.
     fn contact_reach(&self) -> f64 {
-        let range = self.contacts.iter().flatten().map(|pair| pair.range).fold(0.0, f64::max);
+        let range = self.contacts.iter().flatten().map(ContactPair::reach).fold(0.0, f64::max);
         if range > 0.0 { range + self.margin() } else { 0.0 }
     }
 
@@ -268,6 +277,7 @@ impl Scene {
             *slot = [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset].map(real);
         }
         let h = self.bodies[0].smoothing_length;
+        let shares = super::contacts::surface_counts(self);
         Params {
             planes,
             count: self.particles.len() as u32,
@@ -286,6 +296,8 @@ impl Scene {
             facet_capacity: self.facet_capacity(),
             obstacle_count: self.obstacles.len() as u32,
             facet_alike: self.facet_alike(),
+            surface_count: shares[0],
+            corner_count: shares[1],
             zero: 0,
             origin_x: real(origin[0]),
             origin_y: real(origin[1]),

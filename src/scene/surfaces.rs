@@ -28,7 +28,7 @@ impl Parts<'_> {
             let Some(gap) = &contact.gap else { continue };
             let at = k.to_string();
             let path = ["contact", &at, "gap"];
-            self.check_gap(gap, contact.potential.is_some(), &path)?;
+            self.check_gap(gap, contact.touches(), &path)?;
             for (a, b) in pairs(bodies, &contact.between) {
                 let spacing = bodies[a].spacing.max(bodies[b].spacing);
                 let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
@@ -47,7 +47,7 @@ impl Parts<'_> {
 
     fn check_gap(&self, gap: &SurfaceGap, potential: bool, path: &[&str; 3]) -> Result<(), String> {
         let refuse = self.refuse;
-        refuse.unless(!potential, path, || "two bodies touch by a potential or by a gap, not both".into())?;
+        refuse.unless(!potential, path, || "two bodies touch by one law: no gap beside another".into())?;
         refuse.unless(self.file.symmetry.is_empty() && self.file.periodic.is_none(), path, || {
             "contact by a gap sees neither mirror nor periodic images: no [[symmetry]], no periodic axes".into()
         })?;

@@ -34,10 +34,12 @@ const UNTAGGED: [(&str, &str); 2] = [
 ];
 
 /// Tables that someone may take for lists of tables.
-const TABLES: [&str; 10] = [
+const TABLES: [&str; 12] = [
     "quasi_static",
     "formulation",
     "potential",
+    "colour_field",
+    "zones",
     "viscosity",
     "artificial_stress",
     "time",

@@ -66,7 +66,7 @@ pub fn longest_axis(scene: &Scene) -> usize {
 
 fn find_in<S: Space<Real = f64>>(scene: &Scene) -> Result<Buckling, String> {
     let steps = scene.file.quasi_static.as_ref().ok_or("buckling is sought along load steps: the scene needs [quasi_static]")?;
-    if scene.method.contact.is_some() {
+    if scene.method.contact.any() {
         return Err("the tangent is that of the bonds alone: buckling is sought without contact".into());
     }
     let axis = longest_axis(scene);

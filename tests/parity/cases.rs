@@ -211,19 +211,24 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             ..BARE
         },
         Case {
-            name: "lagrangian, leapfrog, contact by the barrier, quadratic gradient",
+            name: "lagrangian, leapfrog, contact by the barrier and by a power, quadratic gradient",
             bodies: 2,
             compensated: true,
             laws: ["neo_hookean", "st_venant_kirchhoff"],
-            top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"barrier\", stiffness = 0.5, range = 2 } }]",
+            top:
+                "contact = [{ between = [\"first\", \"second\"], potential = { law = \"barrier\", stiffness = 0.5, range = 2 } },
+                { between = [\"first\", \"first\"], potential = { law = \"power\", stiffness = 0.5, range = 3.6 } }]",
             formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"",
             ..BARE
         },
         Case {
-            name: "lagrangian, rk2, contact by the soft potential",
+            name: "lagrangian, rk2, contact by the soft potential, Strand's and the colour field",
             bodies: 2,
             laws: ["neo_hookean", "neo_hookean"],
-            top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 2 } }]",
+            top:
+                "contact = [{ between = [\"first\", \"second\"], colour_field = { stiffness = 0.5, threshold = 0.2, range = 5 } },
+                { between = [\"first\", \"first\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 3.6 } },
+                { between = [\"second\", \"second\"], potential = { law = \"repulsive\", stiffness = 0.1, range = 4.5 } }]",
             formulation: "kind = \"total_lagrangian\"\nviscosity = { alpha = 1.0, softening = 0.01 }\ndissipated_energy = true",
             time: "integrator = \"rk2\"",
             ..BARE
@@ -256,6 +261,38 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             top: "obstacle = [{ name = \"wall\", shape = { plane = { point = [0.3, 0, 0], normal = [1, 0, 0] } }, velocity = [0.0005, 0, 0] }]",
             formulation: "kind = \"total_lagrangian\"",
             time: FIRE,
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, contact by Strand's force, compensated",
+            bodies: 2,
+            compensated: true,
+            top: "contact = [{ between = [\"first\", \"second\"], kernel = 0,
+                potential = { law = \"repulsive\", stiffness = 0.1, range = 4, exponent = 3 } }]",
+            formulation: "gradient = \"adjoint\"\nviscosity = { alpha = 0.1 }",
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, zones with the normals of the start",
+            bodies: 2,
+            top: "contact = [{ between = [\"first\", \"second\"], kernel = 0, zones = { radius = 2, stiffness = 1e-3, normals = \"initial\" } }]",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, leapfrog, zones as printed, of all neighbours, with friction",
+            bodies: 2,
+            laws: ["neo_hookean", "neo_hookean"],
+            top: "contact = [{ between = [\"first\", \"second\"],
+                zones = { radius = 2, stiffness = 1e-3, form = \"printed\", normals = \"all\", friction = 0.3 } }]",
+            formulation: "kind = \"total_lagrangian\"",
+            ..BARE
+        },
+        Case {
+            name: "rk2, contact by a power",
+            bodies: 2,
+            top: "contact = [{ between = [\"first\", \"second\"], kernel = 0,
+                potential = { law = \"power\", stiffness = 0.5, range = 2 } }]",
+            time: "integrator = \"rk2\"",
             ..BARE
         },
         Case {
@@ -472,7 +509,7 @@ impl Case {
         text += &self.material("first", 1.0);
         text += &self.material("second", 2.2);
         // Through the reference configuration, bodies have nothing to do with each other.
-        if self.bodies == 2 && self.laws[0].is_empty() {
+        if self.bodies == 2 && self.laws[0].is_empty() && !self.top.contains("contact") {
             text += "[[contact]]\nbetween = [\"first\", \"second\"]\nkernel = 0.6\n";
         }
         if self.boundary {

@@ -190,6 +190,12 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
             let column = |k: usize| state.block_bound.iter().map(|bound| bound[k].f64()).collect();
             (0..4).map(|k| one(&format!("block_bound.{}", ["x", "y", "z", "w"][k]), column(k))).collect()
         }
+        "zone_forces" => {
+            let count = state.params.count as usize;
+            let of = |a: usize| (0..state.particles.contact_count[a] as usize).map(move |k| state.zone_forces[k * count + a]);
+            let owners = (0..count).filter(|&a| state.particles.surface[a] != 0).flat_map(of);
+            vec![one(name, owners.flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
+        }
         "kept_gradients" => {
             let rows = kept(state).map(|place| state.kept_gradients[place]);
             vec![one(name, rows.flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]

@@ -11,7 +11,7 @@ use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Mover, Para
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.
-pub const TABLES: [&str; 12] = [
+pub const TABLES: [&str; 13] = [
     "clock",
     "cell_count",
     "cell_start",
@@ -21,6 +21,7 @@ pub const TABLES: [&str; 12] = [
     "contacts",
     "facet_contacts",
     "block_load",
+    "zone_forces",
     "kept_neighbors",
     "kept_gradients",
     "block_bound",
@@ -41,6 +42,7 @@ fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
         "contacts" => cast_slice(&state.contacts),
         "facet_contacts" => cast_slice(&state.facet_contacts),
         "block_load" => cast_slice(&state.block_load),
+        "zone_forces" => cast_slice(&state.zone_forces),
         "kept_neighbors" => cast_slice(&state.kept_neighbors),
         "kept_gradients" => cast_slice(&state.kept_gradients),
         "block_bound" => cast_slice(&state.block_bound),
@@ -59,6 +61,7 @@ fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] 
         "contacts" => cast_slice_mut(&mut state.contacts),
         "facet_contacts" => cast_slice_mut(&mut state.facet_contacts),
         "block_load" => cast_slice_mut(&mut state.block_load),
+        "zone_forces" => cast_slice_mut(&mut state.zone_forces),
         "kept_neighbors" => cast_slice_mut(&mut state.kept_neighbors),
         "kept_gradients" => cast_slice_mut(&mut state.kept_gradients),
         "block_bound" => cast_slice_mut(&mut state.block_bound),
@@ -164,12 +167,20 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         cell_particles: from.cell_particles.clone(),
         neighbors: from.neighbors.clone(),
         contacts: from.contacts.clone(),
+        zone_forces: from.zone_forces.iter().map(|&v| vector::<A, B>(v)).collect(),
         kept_neighbors: from.kept_neighbors.clone(),
         kept_gradients: from.kept_gradients.iter().map(|&v| vector::<A, B>(v)).collect(),
         contact_pairs: from
             .contact_pairs
             .iter()
-            .map(|p| ContactPair { strength: real(p.strength), range: real(p.range) })
+            .map(|p| ContactPair {
+                law: p.law,
+                exponent: p.exponent,
+                strength: real(p.strength),
+                range: real(p.range),
+                threshold: real(p.threshold),
+                friction: real(p.friction),
+            })
             .collect(),
         bond_table: Default::default(),
         block_bound: from.block_bound.iter().map(|bound| bound.map(real)).collect(),
@@ -261,7 +272,7 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
     }
     all!(
         same: count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
-            artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike;
+            artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, surface_count, corner_count;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
             body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
             artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach, facet_reach, contact_rate
@@ -346,6 +357,10 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let count = state.params.counts().of(field.set());
     let kind = field.kind();
     if kind == Type::Integer {
+        if field == Surface {
+            let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
+            column.iter_mut().for_each(|entry| *entry = random.word() as u32 % 3);
+        }
         if matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount | FacetObstacle) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
@@ -388,13 +403,15 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             FacetEdge | FacetMoment | FacetEnergy | FacetHeat | FacetPressure => 1e-3 * bulk * random.signed(),
             ObstacleVelocity => 0.1 * speed * random.signed(),
             BondStress => bulk * strain(random),
+            SurfaceNormal => random.signed(),
+            ColourExcess => 0.1 * random.unit(),
             ShapeFactor => 1.0 + 0.1 * random.signed(),
             ShapeSlope | ShapeFactorGradient => random.signed() / spacing,
             ShapeSlopeGradient => random.signed() / spacing.powi(2),
             ShapeStress => bulk * strain(random),
             DisplacementGradientStart => 0.1 * random.signed(),
             DisplacementGradientRate | DisplacementGradientSum => 0.02 * rate * random.signed(),
-            FirstFacet | Facets | FacetOwner | FacetContactCount | FacetObstacle => unreachable!(),
+            Surface | FirstFacet | Facets | FacetOwner | FacetContactCount | FacetObstacle => unreachable!(),
             Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount | KeptCount => unreachable!(),
         }
     };

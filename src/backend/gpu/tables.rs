@@ -216,6 +216,7 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
         table("obstacle_pairs", cast_slice(&state.obstacle_pairs), 0),
         table("facet_contacts", cast_slice(&state.facet_contacts), 0),
         table("block_load", cast_slice(&state.block_load), 0),
+        table("zone_forces", cast_slice(&state.zone_forces), 0),
         table("kept_neighbors", cast_slice(&state.kept_neighbors), 0),
         table("kept_gradients", cast_slice(&state.kept_gradients), 0),
         table("coupling", cast_slice(&state.coupling), 0),

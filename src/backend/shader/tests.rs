@@ -3,7 +3,7 @@
 use super::*;
 
 fn composed(source: &str, flags: &[&str]) -> String {
-    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", potential: "", laws: &[] })
+    compose_text("test", source, &Choice { flags, dimension: 2, smoothing: "kernel\n", potentials: &[], laws: &[] })
 }
 
 #[test]
@@ -96,10 +96,10 @@ fn methods() -> Vec<Method> {
                 laws: vec![Default::default()],
                 hourglass: false,
                 bond_table: false,
-                contact: None,
                 gap: None,
                 obstacles: false,
                 friction: false,
+                contact: Default::default(),
                 quasi_static: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
@@ -160,7 +160,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
             gap: None,
             obstacles: false,
             friction: false,
-            contact: None,
+            contact: Default::default(),
             quasi_static: None,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
             hourglass: false,
@@ -250,6 +250,9 @@ const TABLES: &[&str] = &[
     "constraints",
     "course",
     "kept_neighbors",
+    "contact_pairs",
+    "contacts",
+    "zone_forces",
     "kept_gradients",
     "cell_count",
     "cell_start",

@@ -1,0 +1,33 @@
+//! By how much the colour of the bodies that a particle touches exceeds the threshold, <sum V_b W_ab - c0>: see
+//! [`crate::contact::colour_field`]. Twin: shaders/pass/sum_colour.wgsl
+
+use super::Stage;
+use crate::contact::COLOUR_FIELD;
+use crate::pair::separation;
+use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut excess = std::mem::take(&mut state.particles.colour_excess);
+    with_kernel!(state.method.smoothing, K => super::write(&mut excess, |a, slot| *slot = sum::<S, K>(state, a)));
+    state.particles.colour_excess = excess;
+}
+
+fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Real {
+    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let (mut colour, mut threshold) = (S::Real::of(0.0), S::Real::of(0.0));
+    for b in state.contacts_of(a) {
+        let pair = state.contact_pair(a, b);
+        if pair.law == COLOUR_FIELD {
+            let x = separation(state, a, b as u32);
+            threshold = pair.threshold;
+            colour +=
+                state.particles.reference_volume[b] * kernel.weight::<K>(S::inner(x, x).sqrt(), S::Real::of(0.5) * pair.range);
+        }
+    }
+    (colour - threshold).max(S::Real::of(0.0))
+}

@@ -1,0 +1,35 @@
+//! Adds the acceleration by zones: what owners do to a particle, less what it does to intruders as an owner, so that
+//! momentum is kept to the last digit. Twin: shaders/pass/zone_force.wgsl
+
+use super::{GRAIN, Stage};
+use crate::state::State;
+use crate::tensor::{Real, Space};
+use rayon::prelude::*;
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    if state.clock.running == 0 {
+        return;
+    }
+    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    accelerations.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, acceleration)| {
+        if state.particles.contact_count[a] > 0 {
+            *acceleration += sum(state, a) * (S::Real::of(1.0) / state.mass(a));
+        }
+    });
+    state.particles.acceleration = accelerations;
+}
+
+fn sum<S: Space>(state: &State<S>, a: usize) -> S::Vec {
+    let (count, surface) = (state.params.count as usize, &state.particles.surface);
+    let mut force = S::Vec::default();
+    for (k, b) in state.contacts_of(a).enumerate() {
+        if surface[a] != 0 {
+            force = force - state.zone_forces[k * count + a];
+        }
+        if surface[b] != 0 {
+            let place = state.contacts_of(b).position(|c| c == a);
+            force += place.map_or(S::Vec::default(), |k| state.zone_forces[k * count + b]);
+        }
+    }
+    force
+}

@@ -1,0 +1,217 @@
+//! How bodies touch: from what is typed to the table of pairs of bodies.
+
+use super::file::{Contact, File, Integrator, Kind, PairPotential};
+use super::resolve::Refuse;
+use super::{Body, Scene, copies};
+use crate::contact::zones::{Form, Normals, Options};
+use crate::contact::{COLOUR_FIELD, Laws, Potential, ZONES, repulsive};
+use crate::state::ContactPair;
+use serde::{Deserialize, Serialize};
+
+/// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourField {
+    /// k over the lowest Young's modulus of the scene.
+    pub stiffness: f64,
+    /// c0, between 0 and 1: a half where a particle lies on the other body's surface.
+    pub threshold: f64,
+    /// Support of the kernel, in spacings.
+    pub range: f64,
+}
+
+/// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Zones {
+    /// R, half the side of a zone, in spacings.
+    pub radius: f64,
+    /// Force at which (4.2) is 1, over the lower Young's modulus times a spacing (in space its square); 1 as Fuller has it.
+    #[serde(default = "one")]
+    pub stiffness: f64,
+    #[serde(default)]
+    pub form: Form,
+    #[serde(default)]
+    pub normals: Normals,
+    /// A particle lies on the surface with this share of the most neighbours, or less.
+    #[serde(default = "default_surface")]
+    pub surface: f64,
+    /// And at a corner with this share: there zones have several normals.
+    #[serde(default = "default_corner")]
+    pub corner: f64,
+    /// mu of (4.3).
+    #[serde(default)]
+    pub friction: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn default_surface() -> f64 {
+    0.75
+}
+
+fn default_corner() -> f64 {
+    0.5
+}
+
+fn zones(file: &File) -> Option<&Zones> {
+    file.contact.iter().find_map(|contact| contact.zones.as_ref())
+}
+
+/// Most neighbours of a surface particle, and of a corner.
+pub(super) fn surface_counts(scene: &Scene) -> [u32; 2] {
+    let Some(zones) = zones(&scene.file) else { return [0; 2] };
+    let most = f64::from(scene.most_supported());
+    // A share that is met exactly counts.
+    [zones.surface, zones.corner].map(|share| (share * most + 1e-9) as u32)
+}
+
+/// The laws that a scene names.
+pub(super) fn laws(file: &File) -> Laws {
+    let mut potentials: Vec<Potential> = file.contact.iter().filter_map(|c| c.potential.as_ref()).map(|p| p.law).collect();
+    potentials.sort_unstable();
+    potentials.dedup();
+    let colour_field = file.contact.iter().any(|contact| contact.colour_field.is_some());
+    let friction = file.contact.iter().any(|contact| contact.zones.as_ref().is_some_and(|zones| zones.friction > 0.0));
+    let zones = zones(file).map(|zones| Options { form: zones.form, normals: zones.normals, friction });
+    Laws { potentials, colour_field, zones }
+}
+
+/// Contact between bodies a and b; the kernel sums between them have been looked at, with the bodies' names.
+pub(super) fn pairs(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
+    let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
+    for (k, contact) in file.contact.iter().enumerate() {
+        let at = k.to_string();
+        let path = ["contact", &at];
+        let same = |other: &Contact| {
+            let [a, b] = &contact.between;
+            other.between == contact.between || other.between == [b.clone(), a.clone()]
+        };
+        refuse.unless(!file.contact[..k].iter().any(same), &path, || {
+            format!("bodies `{}` and `{}` touch in one way: name them once", contact.between[0], contact.between[1])
+        })?;
+        let laws = [contact.potential.is_some(), contact.colour_field.is_some(), contact.zones.is_some()];
+        refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || "two bodies touch by one law".into())?;
+        if laws.contains(&true) {
+            may_touch(file, &path, refuse)?;
+        }
+        for (a, b) in copies::pairs(bodies, &contact.between) {
+            let Some(pair) = pair_of(file, bodies, contact, (&at, [&bodies[a], &bodies[b]]), refuse)? else { continue };
+            let lagrangian = file.formulation.kind == Kind::TotalLagrangian;
+            refuse.unless(lagrangian || a != b, &path, || {
+                "a body touches itself through the kernel already: self-contact needs formulation.kind `total_lagrangian`".into()
+            })?;
+            refuse.unless(lagrangian || contact.kernel == Some(0.0), &path, || {
+                "in the Eulerian formulation a law of contact takes the kernel's place: name kernel = 0 beside it".into()
+            })?;
+            let free = table[a][b].range == 0.0;
+            refuse.unless(free, &path, || format!("bodies `{}` and `{}` touch by one law", bodies[a].name, bodies[b].name))?;
+            (table[a][b], table[b][a]) = (pair, pair);
+        }
+    }
+    Ok(table)
+}
+
+/// What two bodies are to each other, where the contact names a law.
+fn pair_of(
+    file: &File,
+    bodies: &[Body],
+    contact: &Contact,
+    (at, both): (&str, [&Body; 2]),
+    refuse: &Refuse,
+) -> Result<Option<ContactPair<f64>>, String> {
+    if let Some(potential) = &contact.potential {
+        return by_potential(file, both, potential, &["contact", at, "potential"], refuse).map(Some);
+    }
+    if let Some(field) = &contact.colour_field {
+        return by_colour_field(file, bodies, both, field, &["contact", at, "colour_field"], refuse).map(Some);
+    }
+    contact.zones.as_ref().map(|zones| by_zones(file, both, zones, &["contact", at, "zones"], refuse)).transpose()
+}
+
+/// What every law of contact asks of the scene.
+fn may_touch(file: &File, path: &[&str], refuse: &Refuse) -> Result<(), String> {
+    let kind = file.formulation.kind;
+    refuse.unless(kind != Kind::CorrectedKernel, path, || {
+        "bodies touch where formulation.kind is `total_lagrangian` or `eulerian`".into()
+    })?;
+    refuse.unless(file.symmetry.is_empty(), path, || "contact does not see mirror images: no [[symmetry]]".into())
+}
+
+fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(), String> {
+    for (key, value) in numbers {
+        let path: Vec<&str> = path.iter().copied().chain([*key]).collect();
+        refuse.unless(*value > 0.0 && value.is_finite(), &path, || format!("{key} must be a positive number, found {value}"))?;
+    }
+    Ok(())
+}
+
+/// Mean spacing, and the lower of the moduli.
+fn scales([a, b]: [&Body; 2]) -> (f64, f64) {
+    (0.5 * (a.spacing + b.spacing), a.youngs_modulus().min(b.youngs_modulus()))
+}
+
+fn by_potential(
+    file: &File,
+    bodies: [&Body; 2],
+    typed: &PairPotential,
+    path: &[&str],
+    refuse: &Refuse,
+) -> Result<ContactPair<f64>, String> {
+    positive(&[("stiffness", typed.stiffness), ("range", typed.range)], path, refuse)?;
+    let strands = typed.law == Potential::Repulsive;
+    refuse.unless(strands || typed.exponent.is_none(), path, || "exponent belongs to the law `repulsive`".into())?;
+    let exponent = typed.exponent.unwrap_or(repulsive::EXPONENT);
+    refuse.unless((1..=16).contains(&exponent), path, || format!("exponent must lie between 1 and 16, found {exponent}"))?;
+    let (spacing, modulus) = scales(bodies);
+    let (volume, range) = (spacing.powi(file.dimension as i32), typed.range * spacing);
+    let scale = if strands { repulsive::strength(volume, range, exponent, file.dimension) } else { volume };
+    let strength = typed.stiffness * modulus * scale;
+    Ok(ContactPair { law: typed.law as u32, exponent, strength, range, ..ContactPair::default() })
+}
+
+/// The colour of all bodies touched adds up, so all such contacts have one stiffness and one threshold.
+fn by_colour_field(
+    file: &File,
+    bodies: &[Body],
+    both: [&Body; 2],
+    typed: &ColourField,
+    path: &[&str],
+    refuse: &Refuse,
+) -> Result<ContactPair<f64>, String> {
+    positive(&[("stiffness", typed.stiffness), ("range", typed.range)], path, refuse)?;
+    refuse.unless((0.0..1.0).contains(&typed.threshold), path, || {
+        format!("threshold must lie between 0 and 1, found {}", typed.threshold)
+    })?;
+    let alike = file.contact.iter().filter_map(|contact| contact.colour_field.as_ref()).all(|other| other == typed);
+    refuse.unless(alike, path, || "all contacts by the colour field share one stiffness, threshold and range".into())?;
+    let modulus = bodies.iter().map(Body::youngs_modulus).fold(f64::INFINITY, f64::min);
+    let range = typed.range * scales(both).0;
+    let (strength, threshold) = (typed.stiffness * modulus, typed.threshold);
+    Ok(ContactPair { law: COLOUR_FIELD, strength, range, threshold, ..ContactPair::default() })
+}
+
+/// Surfaces and normals are those of a body, whatever it touches, so their options are the scene's.
+fn by_zones(file: &File, both: [&Body; 2], typed: &Zones, path: &[&str], refuse: &Refuse) -> Result<ContactPair<f64>, String> {
+    positive(&[("stiffness", typed.stiffness), ("radius", typed.radius)], path, refuse)?;
+    let ordered = 0.0 <= typed.corner && typed.corner <= typed.surface && typed.surface <= 1.0;
+    refuse.unless(ordered, path, || {
+        format!("0 <= corner <= surface <= 1 must hold, found {} and {}", typed.corner, typed.surface)
+    })?;
+    refuse.unless(typed.friction >= 0.0 && typed.friction.is_finite(), path, || {
+        format!("friction must be 0 or a positive number, found {}", typed.friction)
+    })?;
+    let moves = file.time.integrator != Integrator::Pefrl && file.quasi_static.is_none();
+    refuse.unless(typed.friction == 0.0 || moves, path, || {
+        "friction needs velocities: neither integrator pefrl nor [quasi_static]".into()
+    })?;
+    let options = |zones: &Zones| (zones.form, zones.normals, zones.surface, zones.corner);
+    let alike = file.contact.iter().filter_map(|contact| contact.zones.as_ref()).all(|other| options(other) == options(typed));
+    refuse.unless(alike, path, || "all zones of a scene share form, normals, surface and corner".into())?;
+    let (spacing, modulus) = scales(both);
+    let strength = typed.stiffness * modulus * spacing.powi(file.dimension as i32 - 1);
+    let (range, friction) = (typed.radius * spacing, typed.friction);
+    Ok(ContactPair { law: ZONES, strength, range, friction, ..ContactPair::default() })
+}
