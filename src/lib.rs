@@ -12,7 +12,7 @@
 //!    ([`pass::Pass::Kick`]), it drifts half a step, and there, with position and velocity both at the half
 //!    step, [`pass::Pass::StrainRate`] sums the velocity gradient over the neighbours in its list.
 //! 4. [`pass::Pass::Stress`] turns that gradient into stress: Jaumann's rate with an exact rotation, Hooke's
-//!    law from [`material`].
+//!    law from [`material`], and the return to the yield surface where a body yields.
 //! 5. [`pass::Pass::SpecificStress`] brings it into the form that forces are summed in, and
 //!    [`pass::Pass::Force`] sums them, with viscosity and artificial stress where the scene names them.
 //!

@@ -8,7 +8,7 @@
 #import hardening
 
 // Rounds that make q = sY.
-const J2_ROUNDS: u32 = 8u;
+const J2_ROUNDS: u32 = 5u;
 
 // Of A = C_p C'^-1: tr A/3, tr A^D A^D, det A^D.
 struct Invariants {
@@ -38,12 +38,6 @@ fn mises_of(a: Invariants, w: real) -> Mises {
     return Mises(sqrt(1.5 * max(norm, 0.0)) / (rho * rho), rho);
 }
 
-// w of w sqrt(q_0 q_w/rho) = 3 mu d, with rho = r (1 + w).
-fn weight_of_flow(flow: real, product: real, r: real) -> real {
-    let square = flow * flow / product * r;
-    return 0.5 * square + sqrt(square * (1.0 + 0.25 * square));
-}
-
 fn first_piola_j2(body: Body, h: Mat, memory: Sym) -> Mat {
     return first_piola_maxwell(body, h, memory);
 }
@@ -59,15 +53,17 @@ fn relax_j2(body: Body, h: Mat, memory: Memory, step: real) -> Memory {
         return memory;
     }
     let stiffness = 3.0 * mu;
-    var d = increment(body, trial, k, stiffness);
-    var w = stiffness * d / yield_stress(body, k + d).stress;
+    var growth = increment(body, trial, k, stiffness);
+    var w = stiffness * growth / (trial - stiffness * growth);
     for (var round = 0u; round < J2_ROUNDS; round++) {
-        let wanted = yield_stress(body, k + d);
         let mises = mises_of(invariants, w);
-        d = max(d + (mu * mises.ratio - wanted.stress) / (stiffness + wanted.slope), 0.0);
-        w = weight_of_flow(stiffness * d, trial * yield_stress(body, k + d).stress, mises.rho / (1.0 + w));
+        let q = mu * mises.ratio;
+        growth = w * sqrt(trial * q / mises.rho) / stiffness;
+        let wanted = yield_stress(body, k + growth);
+        let excess = (q - wanted.stress) * stiffness / (stiffness + wanted.slope);
+        w += (1.0 + w) * excess / (q - excess);
     }
-    return Memory(relaxed(h, memory.strain, w), k + d);
+    return Memory(relaxed(h, memory.strain, w), k + growth);
 }
 
 fn dissipated_j2(body: Body, old_h: Mat, old_memory: Sym, h: Mat, memory: Sym) -> real {

@@ -13,8 +13,8 @@ use super::strain::{cube_root_change, lacking, unimodular_strain};
 use crate::state::Body;
 use crate::tensor::{Real, Space};
 
-/// Rounds that make q = sY: each gains as many digits as elastic strains are small.
-const ROUNDS: usize = 8;
+/// Rounds that make q = sY: each gains as many digits as the trial strain is small.
+const ROUNDS: usize = 5;
 
 /// The invariants of A = C_p C'^-1 = b_e^-1 that the Mises stress needs, of first, second and third order in strain.
 struct Invariants<R> {
@@ -72,7 +72,8 @@ pub fn yielded<S: Space>(body: &Body<S::Real>, deviator: S::Sym, k: S::Real) -> 
 /// C_p - 1 and k after a step that ends at H.
 ///
 /// At fixed H the flow follows A(w) = (A + w)/rho with dk = q/(3 mu rho) dw. The step takes the geometric mean of the
-/// integrand's ends, which is exact for small strains: then q falls as 1/(1 + w), and this is the radial return.
+/// integrand's ends, which is exact for small strains: there q falls as 1/(1 + w) and by 3 mu dk, and this is the
+/// radial return. Each round goes on as if strains were small.
 pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>) -> Memory<S> {
     let (mu, one) = (body.shear_modulus, S::Real::of(1.0));
     let (total, plastic, k) = (unimodular_strain::<S>(h), whole::<S>(memory.0), memory.1);
@@ -82,19 +83,15 @@ pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>) -> Me
         return memory;
     }
     let stiffness = S::Real::of(3.0) * mu;
-    let mut d = increment(body, trial, k, stiffness);
-    let mut w = stiffness * d / yield_stress(body, k + d).0;
+    let mut growth = increment(body, trial, k, stiffness);
+    let mut w = stiffness * growth / (trial - stiffness * growth);
     for _ in 0..ROUNDS {
-        let (wanted, slope) = yield_stress(body, k + d);
         let (ratio, rho) = invariants.mises(w);
-        d = (d + (mu * ratio - wanted) / (stiffness + slope)).max(S::Real::of(0.0));
-        w = weight(stiffness * d, trial * yield_stress(body, k + d).0, rho / (one + w));
+        let q = mu * ratio;
+        growth = w * (trial * q / rho).sqrt() / stiffness;
+        let (wanted, slope) = yield_stress(body, k + growth);
+        let excess = (q - wanted) * stiffness / (stiffness + slope);
+        w += (one + w) * excess / (q - excess);
     }
-    (relaxed::<S>(h, memory.0, w), k + d)
-}
-
-/// w of w sqrt(q_0 q_w/rho) = 3 mu d, with rho = r (1 + w).
-fn weight<R: Real>(flow: R, product: R, r: R) -> R {
-    let square = flow * flow / product * r;
-    R::of(0.5) * square + (square * (R::of(1.0) + R::of(0.25) * square)).sqrt()
+    (relaxed::<S>(h, memory.0, w), k + growth)
 }

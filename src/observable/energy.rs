@@ -59,7 +59,7 @@ pub const INTERNAL: Kind = Kind {
 
 pub const DISSIPATED: Kind = Kind {
     word: "dissipated_energy",
-    about: "heat made by viscosity so far, that of a Maxwell body too (formulation.dissipated_energy)",
+    about: "heat made by viscosity so far, that of a Maxwell body too, and plastic work (formulation.dissipated_energy)",
     needs: &[],
     fields: &[Field::DissipatedEnergy],
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i))),

@@ -44,20 +44,21 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 
 /// Returns stress to the yield surface.
 fn yield_to<S: Space>(state: &mut State<S>) {
-    let mut stress = std::mem::take(&mut state.particles.deviatoric_stress);
-    let mut plastic = std::mem::take(&mut state.particles.equivalent_plastic_strain);
-    let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
-    for (a, (stress, k)) in stress.iter_mut().zip(&mut plastic).enumerate() {
-        let body = state.body(a);
-        let (returned, growth, work) = material::j2::yielded::<S>(body, *stress, *k);
-        (*stress, *k) = (returned, *k + growth);
-        if let Some(heat) = heats.get_mut(a) {
-            *heat += work * ((S::Real::of(1.0) + state.particles.volumetric_strain[a]) / body.density);
+    let zero = S::Real::of(0.0);
+    let mut returns = vec![(S::Sym::default(), zero, zero); state.params.count as usize];
+    super::write(&mut returns, |a, slot| {
+        let particles = &state.particles;
+        let (stress, k) = (particles.deviatoric_stress[a], particles.equivalent_plastic_strain[a]);
+        *slot = material::j2::yielded::<S>(state.body(a), stress, k);
+    });
+    for (a, (stress, growth, work)) in returns.into_iter().enumerate() {
+        let specific_volume = (S::Real::of(1.0) + state.particles.volumetric_strain[a]) / state.body(a).density;
+        state.particles.deviatoric_stress[a] = stress;
+        state.particles.equivalent_plastic_strain[a] += growth;
+        if let Some(heat) = state.particles.dissipated_energy.get_mut(a) {
+            *heat += work * specific_volume;
         }
     }
-    state.particles.deviatoric_stress = stress;
-    state.particles.equivalent_plastic_strain = plastic;
-    state.particles.dissipated_energy = heats;
 }
 
 /// The plain gradient is divided by the density of the step's start; here by that of its middle, without which

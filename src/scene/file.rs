@@ -217,7 +217,7 @@ pub struct Material {
 
 /// What is added to the yield stress at the equivalent plastic strain k.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Hardening {
     /// Modulus times k.
     Linear(f64),

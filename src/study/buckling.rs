@@ -69,6 +69,9 @@ fn find_in<S: Space<Real = f64>>(scene: &Scene) -> Result<Buckling, String> {
     if scene.method.contact.any() {
         return Err("the tangent is that of the bonds alone: buckling is sought without contact".into());
     }
+    if scene.method.plastic() {
+        return Err("the tangent is that of elastic bodies: buckling is sought without a law that yields".into());
+    }
     let axis = longest_axis(scene);
     let mut path = Path::<S>::new(scene, axis);
     if path.go(0.0)?.negative() > 0 {

@@ -109,3 +109,10 @@ fn a_strut_under_tension_does_not_buckle() {
     let said = find(&straight(strut(4, 12, 1e-2))).unwrap_err();
     assert!(said.contains("does not buckle"), "{said}");
 }
+
+#[test]
+fn a_body_that_yields_is_refused() {
+    let text = strut(6, 30, -1e-3).text.replace("law = \"st_venant_kirchhoff\"", "law = \"j2\"\nyield_stress = 0.1");
+    let said = find(&Scene::parse(&text, "strut", None, &[]).unwrap()).map(|_| ()).unwrap_err();
+    assert!(said.contains("without a law that yields"), "{said}");
+}

@@ -25,6 +25,7 @@ kind = 'total_lagrangian'
 ";
 const TOUCH: &str = "contact=[{ between = ['block', 'block'], potential = { law = 'barrier', stiffness = 0.5, range = 1.0 } }]";
 const MAXWELL: [&str; 2] = ["material.rubber.law='maxwell'", "material.rubber.viscosity=1.0"];
+const J2: [&str; 2] = ["material.rubber.law='j2'", "material.rubber.yield_stress=0.1"];
 
 fn parse(changes: &[&str]) -> Result<Scene, String> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_string()).collect();
@@ -67,6 +68,12 @@ fn each_option_adds_its_own_fields_and_passes() {
         (&[], &[Field::HourglassEnergy], &[Pass::HourglassEnergy]),
         (&["formulation.viscosity={ alpha = 1.0 }"], &[Field::HourglassEnergy], &[Pass::HourglassEnergy, Pass::BondFriction]),
         (&[MAXWELL[0], MAXWELL[1], "formulation.hourglass=0"], &[Field::InelasticStrain], &[]),
+        (&[J2[0], J2[1], "formulation.hourglass=0"], &[Field::InelasticStrain, Field::EquivalentPlasticStrain], &[]),
+        (
+            &[J2[0], J2[1], "formulation.hourglass=0", "formulation.dissipated_energy=true"],
+            &[Field::InelasticStrain, Field::EquivalentPlasticStrain, Field::DissipatedEnergy],
+            &[],
+        ),
         (
             &["formulation.gradient='quadratic'", "formulation.hourglass=0"],
             &[Field::LinearCoefficient, Field::QuadraticCoefficient, Field::QuadraticStress],
@@ -107,6 +114,18 @@ fn what_does_not_go_together_is_refused_in_one_sentence() {
         (&["body.block.relative_volume=0.9"], "starts unstressed"),
         (&["material.rubber.viscosity=1"], "only the law `maxwell` takes"),
         (&["material.rubber.law='maxwell'"], "needs a viscosity"),
+        (&["material.rubber.law='j2'"], "needs a yield_stress"),
+        (&["material.rubber.yield_stress=0.1"], "only the law `j2` takes"),
+        (&["material.rubber.hardening={ linear = 0.1 }"], "only the law `j2` takes"),
+        (&[J2[0], "material.rubber.yield_stress=0"], "needs a positive yield_stress"),
+        (&[J2[0], J2[1], "material.rubber.hardening={ linear = -0.1 }"], "would soften"),
+        (
+            &[J2[0], J2[1], "material.rubber.hardening={ power = { coefficient = 0.1, exponent = 2 } }"],
+            "exponent above 0 and up to 1",
+        ),
+        (&[J2[0], J2[1], "time.integrator='rk4'"], "leapfrog"),
+        (&[J2[0], J2[1], "formulation.kind='eulerian'", "time.integrator='rk2'"], "leapfrog"),
+        (&[J2[0], J2[1], "formulation.kind='corrected_kernel'"], "needs formulation.kind `eulerian` or `total_lagrangian`"),
         (&["formulation.gradient='quadratic'", "symmetry=[{ point = [0, 0], normal = [1, 0] }]"], "does not see mirror images"),
         (&[TOUCH, "symmetry=[{ point = [0, 0], normal = [1, 0] }]"], "does not see mirror images"),
         (&["contact=[{ between = ['block', 'block'] }]"], "needs kernel, potential, colour_field or zones"),

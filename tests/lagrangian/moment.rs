@@ -5,7 +5,7 @@ use crate::common::deformation::body;
 use crate::common::parse;
 use lithosph::backend::Columns;
 use lithosph::material::{Law, maxwell, stored_energy};
-use lithosph::observable::{Moment, Value, fields_read, observers};
+use lithosph::observable::{Moment, Value, fields_of_path, fields_read, observers};
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
 use lithosph::tensor::{Plane, Tuple};
@@ -112,6 +112,10 @@ fn energies_count_memory_and_heat() {
 
 #[test]
 fn observables_read_what_the_formulation_has() {
+    let metal = parse(&text(2, Law::J2, "").replace("viscosity = 1.0", "yield_stress = 1.0"));
+    assert_eq!(fields_of_path(&metal, "equivalent_plastic_strain"), [Field::EquivalentPlasticStrain]);
+    let fetched = columns(&metal, &[(Field::EquivalentPlasticStrain, &[0.3]), (Field::Displacement, &[0.0, 0.0])]);
+    assert_eq!(Moment::new(&metal, 0.0, 0, &fetched).path("equivalent_plastic_strain", &[0]), [0.3]);
     for (law, memory) in [(Law::NeoHookean, false), (Law::Maxwell, true)] {
         let scene = parse(&text(2, law, ""));
         let fields = fields_read(&observers(&scene), &scene);

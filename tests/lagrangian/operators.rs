@@ -79,6 +79,9 @@ fn assert_force_is_the_gradient_of_the_energy<S: Space<Real = f64>>(scene: &Scen
     let mut cpu = begun::<S>(scene);
     let state = &mut cpu.state;
     let count = state.params.count as usize;
+    // Where a body has flowed, and now does not, its hourglass energy varies from particle to particle.
+    let mut random = Random(5);
+    state.particles.equivalent_plastic_strain.iter_mut().for_each(|k| *k = random.unit());
     let noise = scatter(count, 0.08);
     displace(state, |a, x| std::array::from_fn(|k| noise[a][k] + 0.05 * x[(k + 1) % S::DIMENSION]));
     respond(state);
@@ -112,6 +115,16 @@ fn the_force_is_minus_the_gradient_of_the_energy() {
         assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&body(2, formulation));
         assert_force_is_the_gradient_of_the_energy::<Solid<f64>>(&body(3, formulation));
     }
+    // The strains are of a tenth.
+    let strong = |dimension| {
+        let law = "law = \"j2\"\nyield_stress = 3.0\nhardening = { linear = 1.0 }";
+        let scene = parse(&body(dimension, "hourglass = 0.5").text.replace("law = \"neo_hookean\"", law));
+        assert!(scene.method.plastic());
+        scene
+    };
+    assert_force_is_the_gradient_of_the_energy::<Line<f64>>(&strong(1));
+    assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&strong(2));
+    assert_force_is_the_gradient_of_the_energy::<Solid<f64>>(&strong(3));
 }
 
 /// Two blocks a gap apart that is less than the range of their contact.

@@ -175,7 +175,6 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             name: "fire, j2, planes",
             bodies: 2,
             planes: 1,
-            boundary: true,
             laws: ["j2", "j2, linear"],
             formulation: "kind = \"total_lagrangian\"",
             time: FIRE,
