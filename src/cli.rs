@@ -234,6 +234,9 @@ fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
 fn announce(scene: &Scene, options: &Options) {
     if !options.quiet {
         say(&format!("{}: {}", scene.label(), scene.file.title));
+        if let Some(cost) = scene.cost() {
+            say(&cost);
+        }
     }
 }
 

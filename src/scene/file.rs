@@ -448,7 +448,8 @@ pub enum ObstacleShape {
     Cylinder { center: Coordinates, axis: Coordinates, radius: f64 },
     /// A wedge in 2D; half angle in degrees.
     Cone { apex: Coordinates, axis: Coordinates, half_angle: f64 },
-    /// 3D: three faces at 65.27 degrees from the axis; `turn` (degrees) about it.
+    /// 3D: three faces at 65.27 degrees from the axis, of which one looks along y if the axis is z; turned about the axis
+    /// by `turn` degrees.
     Berkovich {
         apex: Coordinates,
         axis: Coordinates,

@@ -6,6 +6,7 @@ mod clip;
 pub mod contacts;
 mod copies;
 pub mod corrected_kernel;
+mod cost;
 pub mod facets;
 pub mod file;
 mod motion;

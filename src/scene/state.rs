@@ -219,7 +219,7 @@ impl Scene {
     /// Square of the rate that the stiffest contact by surfaces gives a particle: the sum of k A over its mass, a
     /// quarter of it, so that a step at cfl 1 stays below the limit of 2 over the frequency. A facet beside its particle
     /// moves more easily than the particle, by the square of the way.
-    fn contact_rate(&self) -> f64 {
+    pub(super) fn contact_rate(&self) -> f64 {
         let stiffness = |body: usize| {
             // Either surface measures the other.
             let own = self.facet_pairs.iter().map(|row| 2.0 * row[body].stiffness);

@@ -13,3 +13,4 @@ mod plasticity;
 mod quasi_static;
 mod shape_block;
 mod shape_functions;
+mod surfaces;

@@ -1,0 +1,158 @@
+//! Contact of surfaces by facets: what it keeps, and that it does not rub where it should not.
+
+use crate::common::{in_order, parse, steps};
+use crate::operators::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, resultants};
+use lithosph::backend::cpu::Cpu;
+use lithosph::particles::Field;
+use lithosph::scene::Scene;
+use lithosph::tensor::{Plane, Solid, Space};
+
+const RUBBER: &str = "[material.rubber]\nlaw = 'neo_hookean'\ndensity = 1.3\nyoungs_modulus = 1.0\npoisson_ratio = 0.3
+    [formulation]\nkind = 'total_lagrangian'\n";
+
+/// Two bodies that overlap a little: a disc and a block, or two blocks of which one stands askew.
+fn overlapping(dimension: usize, gap: &str) -> Scene {
+    let bodies = match dimension {
+        2 => {
+            "[[body]]\nname = 'a'\nshape = { disc = { center = [0, 5.9], radius = 6 } }\nanchor = [0.1, 5.7]\nmaterial = 'rubber'
+            [[body]]\nname = 'b'\nshape = { block = { min = [-8, -5], max = [8, 0] } }\nanchor = [0.5, -0.5]\nmaterial = 'rubber'"
+        }
+        _ => {
+            "[[body]]\nname = 'a'\nshape = { block = { min = [0, 0, 0], max = [4, 4, 4] } }\nanchor = [0.5, 0.5, 0.5]\nmaterial = 'rubber'
+            [[body]]\nname = 'b'\nshape = { block = { min = [3.9, 0.6, 1.3], max = [6.9, 4.6, 5.3] } }\nanchor = [4.4, 1.1, 1.8]
+            material = 'rubber'"
+        }
+    };
+    parse(&format!(
+        "title = 'contact'\ndimension = {dimension}\nspacing = 1.0\nduration = 1.0\n{bodies}
+        [[contact]]\nbetween = ['a', 'b']\ngap = {{ {gap} }}\n{RUBBER}"
+    ))
+}
+
+/// A body between rigid obstacles.
+fn between_obstacles(dimension: usize) -> Scene {
+    let (shape, obstacles) = match dimension {
+        2 => (
+            "disc = { center = [0, 0], radius = 6 }",
+            "[[obstacle]]\nname = 'floor'\nshape = { plane = { point = [0, -5.8], normal = [0.1, 1] } }
+            [[obstacle]]\nname = 'wedge'\nshape = { cone = { apex = [0, 5.8], axis = [0, 1], half_angle = 60 } }
+            [[obstacle]]\nname = 'ball'\nshape = { sphere = { center = [-9, 1], radius = 3.2 } }",
+        ),
+        _ => (
+            "block = { min = [0, 0, 0], max = [5, 5, 4] }",
+            "[[obstacle]]\nname = 'tip'\nshape = { berkovich = { apex = [2.4, 2.6, 3.7], axis = [0, 0, 1], turn = 20 } }
+            [[obstacle]]\nname = 'bar'\nshape = { cylinder = { center = [-2.9, 2, 2], axis = [0, 1, 0.2], radius = 3 } }
+            [[obstacle]]\nname = 'cone'\nshape = { cone = { apex = [2, 2, 0.2], axis = [0, 0, -1], half_angle = 70.3 } }",
+        ),
+    };
+    parse(&format!(
+        "title = 'obstacles'\ndimension = {dimension}\nspacing = 1.0\nduration = 1.0
+        [[body]]\nname = 'body'\nshape = {{ {shape} }}\nanchor = {:?}\nmaterial = 'rubber'\n{obstacles}\n{RUBBER}",
+        vec![0.5; dimension]
+    ))
+}
+
+fn contact_energy<S: Space<Real = f64>>(scene: &Scene) -> f64 {
+    begun::<S>(scene).state.particles.contact_energy.iter().sum()
+}
+
+#[test]
+fn the_force_of_surfaces_is_minus_the_gradient_of_the_energy() {
+    for gap in ["", "range = 1.5, stiffness = 5"] {
+        assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&overlapping(2, gap));
+        assert_force_is_the_gradient_of_the_energy::<Solid<f64>>(&overlapping(3, gap));
+    }
+    assert!(contact_energy::<Plane<f64>>(&overlapping(2, "")) > 1e-4);
+    assert!(contact_energy::<Solid<f64>>(&overlapping(3, "")) > 1e-3);
+}
+
+#[test]
+fn the_force_of_obstacles_is_minus_the_gradient_of_the_energy() {
+    assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&between_obstacles(2));
+    assert_force_is_the_gradient_of_the_energy::<Solid<f64>>(&between_obstacles(3));
+    assert!(contact_energy::<Plane<f64>>(&between_obstacles(2)) > 1e-3);
+    assert!(contact_energy::<Solid<f64>>(&between_obstacles(3)) > 1e-3);
+}
+
+#[test]
+fn surfaces_have_no_resultant_and_no_moment_but_along_their_normals() {
+    assert_momenta_stay::<Plane<f64>>(&overlapping(2, ""));
+    assert_momenta_stay::<Solid<f64>>(&overlapping(3, ""));
+    let (force, moment) = resultants::<Plane<f64>>(&overlapping(2, "form = 'along_normals'"));
+    assert!(force < 1e-13 && moment > 1e-6, "{force:e} {moment:e}");
+    let (force, moment) = resultants::<Solid<f64>>(&overlapping(3, "form = 'along_normals'"));
+    assert!(force < 1e-13 && moment > 1e-6, "{force:e} {moment:e}");
+}
+
+/// Sums over the particles: m v, x cross v m, and energies of motion, material, hourglass terms and contact, and heat.
+fn sums(cpu: &mut Cpu<Plane<f64>>) -> [f64; 3] {
+    let state = &cpu.state;
+    let (mut momentum, mut spin) = (0.0, 0.0);
+    for a in 0..state.params.count as usize {
+        let (x, v, m) = (state.position(a), state.particles.velocity[a], state.mass(a));
+        (momentum, spin) = (momentum + m * v[0], spin + m * (x[0] * v[1] - x[1] * v[0]));
+    }
+    let heat: f64 = (0..state.params.count as usize).map(|a| state.mass(a) * state.particles.dissipated_energy[a]).sum();
+    [momentum, spin, heat]
+}
+
+#[test]
+fn rubbing_discs_keep_both_momenta_and_heat_up() {
+    let disc = |name: &str, at: [f64; 2], v: [f64; 2]| {
+        format!(
+            "[[body]]\nname = '{name}'\nshape = {{ disc = {{ center = {at:?}, radius = 8 }} }}\nanchor = {at:?}
+            velocity = {v:?}\nmaterial = 'rubber'\n"
+        )
+    };
+    let scene = parse(&format!(
+        "title = 'discs'\ndimension = 2\nspacing = 1.0\nduration = 100.0\n{}{}[[contact]]\nbetween = ['a', 'b']
+        gap = {{ friction = 0.5 }}\n{RUBBER}dissipated_energy = true",
+        disc("a", [-8.3, 3.0], [0.08, 0.0]),
+        disc("b", [8.0, -2.6], [-0.08, 0.01])
+    ));
+    let mut cpu = Cpu::new(scene.state::<Plane<f64>>(false));
+    let before = sums(&mut cpu);
+    steps(&mut cpu, 250);
+    let after = sums(&mut cpu);
+    let mass = 1.3 * 2.0 * 201.0;
+    assert!((after[0] - before[0]).abs() < 1e-12 * mass * 0.08, "momentum {before:?} {after:?}");
+    assert!((after[1] - before[1]).abs() < 1e-12 * mass * 0.08 * 10.0, "angular momentum {before:?} {after:?}");
+    assert!(after[2] > 1e-2 && before[2] == 0.0, "heat {after:?}");
+}
+
+/// Drag over load of a disc that slides without friction over a held block at 0.005 c, over 3 spacings.
+fn effective_friction(shift: f64, packing: &str) -> f64 {
+    let scene = parse(&format!(
+        "title = 'slide'\ndimension = 2\nspacing = 1.0\nduration = 1.0\nbody_force = [0, -0.0004]
+        [[body]]\nname = 'disc'\nshape = {{ disc = {{ center = [0, 11.9], radius = 12 }} }}\npacking = '{packing}'
+        anchor = [{shift}, {}]\nvelocity = [0.0058, 0]\nmaterial = 'rubber'
+        [[body]]\nname = 'block'\nshape = {{ block = {{ min = [-14, -4], max = [17, 0] }} }}\nanchor = [0.5, -0.5]\nmaterial = 'rubber'
+        [[boundary]]\nselect = {{ body = 'block' }}\nfixed = true
+        [[contact]]\nbetween = ['disc', 'block']\ngap = {{}}\n{RUBBER}",
+        11.9 + 0.7 * shift
+    ));
+    let mut cpu = Cpu::new(scene.state::<Plane<f64>>(false));
+    let first = in_order(&mut cpu, Field::Velocity);
+    let clock = steps(&mut cpu, 1700);
+    let last = in_order(&mut cpu, Field::Velocity);
+    let disc = |v: &[f64]| {
+        let own: Vec<f64> =
+            (0..scene.particles.len()).filter(|&i| scene.particles[i].body == 0).map(|i| v[2 * i] * scene.mass(i)).collect();
+        own.iter().sum::<f64>()
+    };
+    let mass: f64 = (0..scene.particles.len()).filter(|&i| scene.particles[i].body == 0).map(|i| scene.mass(i)).sum();
+    assert!(clock.elapsed * 0.0058 > 2.0, "{}", clock.elapsed);
+    (disc(&first) - disc(&last)) / (mass * 0.0004 * clock.elapsed)
+}
+
+#[test]
+fn surfaces_slip_over_each_other_on_any_lattice() {
+    let mut worst: f64 = 0.0;
+    for k in 0..10 {
+        let packing = if k < 5 { "fitted" } else { "square" };
+        let friction = effective_friction(0.1 * f64::from(k), packing);
+        println!("layout {k}, {packing}: {friction:.1e}");
+        worst = worst.max(friction.abs());
+    }
+    assert!(worst < 0.01, "{worst}");
+}
