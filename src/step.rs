@@ -125,7 +125,8 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     if let Some(zones) = method.contact.zones {
         let initial = zones.normals == Normals::Initial;
         if method.kind == Kind::Eulerian && initial {
-            order(true, &mut calls);
+            // In the order that they have, so that a resumed run sums as an unbroken one.
+            list(true, &mut calls);
         }
         if method.kind == Kind::TotalLagrangian || initial {
             find_surface(false, true, &mut calls);

@@ -146,7 +146,7 @@ fn contact_forces_are_too_and_bodies_do_touch() {
         assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&scene);
         let mut state = begun::<Plane<f64>>(&scene).state;
         respond(&mut state);
-        assert!(state.particles.contact_energy.iter().sum::<f64>() > 1e-4);
+        assert!(state.particles.contact_energy.iter().sum::<f64>() > 1e-5);
     }
 }
 
