@@ -27,11 +27,12 @@ fn mises_stress(deviator: Sym) -> real {
 
 fn yielded(body: Body, deviator: Sym, k: real) -> Yielded {
     let trial = mises_stress(deviator);
-    if body.yield_stress == 0.0 || trial <= yield_stress(body, k).stress {
+    let before = yield_stress(body, k).stress;
+    if body.yield_stress == 0.0 || trial <= before {
         return Yielded(deviator, 0.0, 0.0);
     }
     let stiffness = 3.0 * body.shear_modulus;
     let growth = increment(body, trial, k, stiffness);
     let lost = stiffness * growth;
-    return Yielded(sym_scale(deviator, 1.0 - lost / trial), growth, (trial - 0.5 * lost) * growth);
+    return Yielded(sym_scale(deviator, 1.0 - lost / trial), growth, 0.5 * (before + trial - lost) * growth);
 }

@@ -55,18 +55,18 @@ pub fn mises<S: Space>(deviator: S::Sym) -> S::Real {
     (S::Real::of(1.5) * (S::trace(S::mat_mat(within, within)) + across)).sqrt()
 }
 
-/// Eulerian: the deviator returned to the yield surface, the growth of k, and the plastic work per volume, which is
-/// what the deviator's energy q^2/(6 mu) loses.
+/// Eulerian: the deviator returned to the yield surface, the growth of k, and the plastic work per volume by the
+/// trapezoid of sY over k, as the motion does its work by that of the stress.
 pub fn yielded<S: Space>(body: &Body<S::Real>, deviator: S::Sym, k: S::Real) -> (S::Sym, S::Real, S::Real) {
     let zero = S::Real::of(0.0);
-    let trial = mises::<S>(deviator);
-    if body.yield_stress == zero || trial <= yield_stress(body, k).0 {
+    let (trial, before) = (mises::<S>(deviator), yield_stress(body, k).0);
+    if body.yield_stress == zero || trial <= before {
         return (deviator, zero, zero);
     }
     let stiffness = S::Real::of(3.0) * body.shear_modulus;
     let growth = increment(body, trial, k, stiffness);
     let lost = stiffness * growth;
-    (deviator * (S::Real::of(1.0) - lost / trial), growth, (trial - S::Real::of(0.5) * lost) * growth)
+    (deviator * (S::Real::of(1.0) - lost / trial), growth, S::Real::of(0.5) * (before + trial - lost) * growth)
 }
 
 /// C_p - 1 and k after a step that ends at H.

@@ -316,7 +316,7 @@ fn sheared_plate(kind: &str, steps: u32) -> [f64; 3] {
 #[test]
 fn the_energy_of_a_run_that_yields_stays() {
     // The hypoelastic law has an energy for small strains only; elastic strains are of a tenth here.
-    for (kind, tolerance) in [("total_lagrangian", 1e-4), ("eulerian", 2e-3)] {
+    for (kind, tolerance) in [("total_lagrangian", 1e-4), ("eulerian", 1e-3)] {
         let errors = [80, 160, 320].map(|steps| {
             let [first, last, heat] = sheared_plate(kind, steps);
             assert!(heat > 0.2 * first, "{kind}: {heat} of {first}");
