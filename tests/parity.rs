@@ -78,6 +78,7 @@ fn passes_agree<W: Space<Real = f64>, N: Space<Real = f32>>() {
     let Some(adapter) = adapter() else { return };
     let (mut all, mut bad) = (Vec::new(), Vec::new());
     for case in cases(W::DIMENSION) {
+        println!("{}", case.name);
         let rows = try_case::<W, N>(&case, &adapter);
         bad.extend(rows.iter().filter(|row| !row.good).map(|row| format!("{}: {row:?}", case.name)));
         all.extend(rows);

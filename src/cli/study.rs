@@ -5,7 +5,7 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::buckling;
+use crate::study::{buckling, sweep};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -16,6 +16,10 @@ pub(super) enum Study {
     /// The matrix is the product of all --vary, else that of the scene's table `[study.accuracy]`, else of some
     /// smoothing lengths, integrators and Courant numbers. The same command goes on where a kill left it.
     Accuracy(AccuracyArgs),
+    /// Run a scene over a matrix of settings; write what it finds, a row for each setting, into a CSV.
+    ///
+    /// The same command goes on where a kill left it.
+    Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
 }
@@ -28,6 +32,21 @@ pub(super) struct BucklingArgs {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Table of the buckling mode; out/study/SCENE[-VARIANT]-buckling.csv unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SweepArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    /// An axis of the matrix: `--vary contact.0.gap.friction=0,0.2,0.4`. May be given several times.
+    #[arg(long, value_name = "PATH=V1,V2")]
+    vary: Vec<String>,
+    #[arg(long, value_enum, default_value = "cpu")]
+    backend: PlaceWord,
+    /// The CSV; out/study/SCENE[-VARIANT]-sweep.csv unless given.
     #[arg(long)]
     out: Option<PathBuf>,
 }
@@ -81,8 +100,22 @@ impl PlaceWord {
 pub(super) fn study(study: &Study) -> Result<i32, Stop> {
     match study {
         Study::Accuracy(args) => accuracy(args),
+        Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
     }
+}
+
+fn swept(args: &SweepArgs) -> Result<i32, Stop> {
+    let request = sweep::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        vary: args.vary.clone(),
+        choice: args.backend.choice(),
+        out: args.out.clone(),
+    };
+    let text = sweep::run(&request, |row| eprintln!("{row}"))?;
+    say(&text);
+    Ok(0)
 }
 
 fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {

@@ -27,8 +27,7 @@ fn area(moment: &Moment, observer: &Observer) -> f64 {
             Some(number) => moment.scalar(Field::FacetObstacle, e) == number,
             None => moment.scalar(Field::FacetPressure, e) > 0.0,
         })
-        .map(|(_, facet)| facet.piece.area)
-        .sum()
+        .fold(0.0, |sum, (_, facet)| sum + facet.piece.area)
 }
 
 pub const FORCE: Kind = Kind {

@@ -6,28 +6,30 @@ use super::shape::{Coordinates, Shape};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// `count` bodies along each axis, `step` apart.
+/// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copies {
     pub count: Vec<u32>,
-    pub step: Coordinates,
+    /// Width of the gaps.
+    pub apart: Coordinates,
 }
 
 /// More bodies than this are a slip: the tables of pairs grow with the square.
 const MOST: u64 = 10_000;
 
 impl Copies {
-    /// How far each copy is moved; x runs fastest.
-    fn shifts(&self) -> Result<Vec<DVec3>, String> {
+    /// How far each copy is moved from the middle of the grid; x runs fastest.
+    fn shifts(&self, size: DVec3) -> Result<Vec<DVec3>, String> {
         let count = |axis: usize| self.count.get(axis).copied().unwrap_or(1);
         let total: u64 = (0..3).map(|axis| u64::from(count(axis))).product();
         if total == 0 || total > MOST || self.count.len() > 3 {
             return Err(format!("copies.count takes up to three numbers whose product is 1 to {MOST}, found {:?}", self.count));
         }
-        let step = self.step.vector();
+        let step = size + self.apart.vector();
+        let middle = DVec3::from_array(std::array::from_fn(|axis| 0.5 * (f64::from(count(axis)) - 1.0)));
         let grid = (0..count(2)).flat_map(|z| (0..count(1)).flat_map(move |y| (0..count(0)).map(move |x| [x, y, z])));
-        Ok(grid.map(|place| DVec3::from_array(place.map(f64::from)) * step).collect())
+        Ok(grid.map(|place| (DVec3::from_array(place.map(f64::from)) - middle) * step).collect())
     }
 }
 
@@ -42,7 +44,8 @@ pub(super) fn expand(file: &mut File) -> Result<Vec<usize>, (usize, String)> {
             all.push(typed);
             continue;
         };
-        let shifts = copies.shifts().map_err(|message| (k, message))?;
+        let (low, high) = typed.shape.bounds(file.dimension);
+        let shifts = copies.shifts(high - low).map_err(|message| (k, message))?;
         for (number, shift) in shifts.into_iter().enumerate() {
             typed_at.push(k);
             all.push(copy(&typed, number, shift));
@@ -107,11 +110,12 @@ mod tests {
 
     #[test]
     fn copies_stand_on_a_grid() {
-        let copies = Copies { count: vec![2, 3], step: [2.5, 4.0].into() };
-        let shifts = copies.shifts().unwrap();
-        assert_eq!((shifts.len(), shifts[1], shifts[5]), (6, DVec3::new(2.5, 0.0, 0.0), DVec3::new(2.5, 8.0, 0.0)));
-        assert!(Copies { count: vec![0], ..copies.clone() }.shifts().is_err());
-        assert!(Copies { count: vec![200, 200], ..copies }.shifts().is_err());
+        let copies = Copies { count: vec![2, 3], apart: [0.5, 1.0].into() };
+        let size = DVec3::new(2.0, 3.0, 9.0);
+        let shifts = copies.shifts(size).unwrap();
+        assert_eq!((shifts.len(), shifts[0], shifts[5]), (6, DVec3::new(-1.25, -4.0, 0.0), DVec3::new(1.25, 4.0, 0.0)));
+        assert!(Copies { count: vec![0], ..copies.clone() }.shifts(size).is_err());
+        assert!(Copies { count: vec![200, 200], ..copies }.shifts(size).is_err());
     }
 
     #[test]

@@ -3,4 +3,5 @@
 pub mod accuracy;
 pub mod buckling;
 pub mod eigen;
+pub mod sweep;
 pub mod von_neumann;

@@ -150,7 +150,8 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
         for (v, a) in uphill.particles.velocity.iter_mut().zip(&uphill.particles.acceleration) {
             *v = *a * -usual.clock.step;
         }
-        assert_eq!(end(uphill).running, 1);
+        let clock = end(uphill);
+        assert_eq!(clock.running, 1, "{clock:?}");
         let mut downhill = usual.clone();
         for (v, a) in downhill.particles.velocity.iter_mut().zip(&downhill.particles.acceleration) {
             *v = *a * usual.clock.step;

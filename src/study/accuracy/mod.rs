@@ -6,10 +6,10 @@
 //! where a kill left it. A run that failed has its row too.
 
 mod front;
-mod matrix;
+pub(super) mod matrix;
 mod report;
 mod row;
-mod source;
+pub(super) mod source;
 mod table;
 mod usual;
 
