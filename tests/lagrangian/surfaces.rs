@@ -117,7 +117,7 @@ fn rubbing_discs_keep_both_momenta_and_heat_up() {
     let mass = 1.3 * 2.0 * 201.0;
     assert!((after[0] - before[0]).abs() < 1e-12 * mass * 0.08, "momentum {before:?} {after:?}");
     assert!((after[1] - before[1]).abs() < 1e-12 * mass * 0.08 * 10.0, "angular momentum {before:?} {after:?}");
-    assert!(after[2] > 1e-2 && before[2] == 0.0, "heat {after:?}");
+    assert!(after[2] > 1e-3 && before[2] == 0.0, "heat {after:?}");
 }
 
 /// Drag over load of a disc that slides without friction over a held block at 0.005 c, over 3 spacings.
@@ -133,7 +133,7 @@ fn effective_friction(shift: f64, packing: &str) -> f64 {
     ));
     let mut cpu = Cpu::new(scene.state::<Plane<f64>>(false));
     let first = in_order(&mut cpu, Field::Velocity);
-    let clock = steps(&mut cpu, 1700);
+    let clock = steps(&mut cpu, 3200);
     let last = in_order(&mut cpu, Field::Velocity);
     let disc = |v: &[f64]| {
         let own: Vec<f64> =
@@ -155,4 +155,34 @@ fn surfaces_slip_over_each_other_on_any_lattice() {
         worst = worst.max(friction.abs());
     }
     assert!(worst < 0.01, "{worst}");
+}
+
+#[test]
+fn what_surfaces_cannot_do_is_refused_in_one_sentence() {
+    let text = |gap: &str, more: &str| overlapping(2, "").text.replace("[contact.gap]", &format!("[contact.gap]\n{gap}")) + more;
+    assert!(Scene::parse(&text("friction = 0.2", ""), "test", None, &[]).is_ok());
+    let floor = "\n[[obstacle]]\nname = 'floor'\n";
+    let still = "\n[quasi_static]\nload_steps = 2\n";
+    for (gap, more, sentence) in [
+        ("stiffness = 0", String::new(), "stiffness must be a positive number, found 0"),
+        ("range = 0.5", String::new(), "range must lie between 1 and 4 spacings, found 0.5"),
+        ("friction = -1", String::new(), "friction must be 0 or a positive number, found -1"),
+        ("friction = 0.2", still.to_string(), "friction depends on the way that equilibrium is reached"),
+        ("", format!("{floor}shape = {{ berkovich = {{ apex = [0, 0], axis = [0, 1] }} }}"), "needs dimension 3"),
+        ("", format!("{floor}shape = {{ sphere = {{ center = [0, -20], radius = 0 }} }}"), "radius must be a positive number"),
+        ("", format!("{floor}shape = {{ plane = {{ point = [0, -20], normal = [0, 0] }} }}"), "normal must not be zero"),
+        (
+            "",
+            format!("{floor}against = ['c']\nshape = {{ plane = {{ point = [0, -20], normal = [0, 1] }} }}"),
+            "no body is named `c`",
+        ),
+        (
+            "",
+            format!("{floor}mass = 1\ncourse = [[0, 1]]\nshape = {{ plane = {{ point = [0, -20], normal = [0, 1] }} }}"),
+            "moves freely",
+        ),
+    ] {
+        let error = Scene::parse(&text(gap, &more), "test", None, &[]).unwrap_err();
+        assert!(error.contains(sentence) && error.starts_with("test:"), "{error}\nwanted {sentence}");
+    }
 }

@@ -255,8 +255,7 @@ pub fn cases(dimension: usize) -> Vec<Case> {
         Case {
             name: "fire, obstacles",
             units: PLAIN,
-            boundary: true,
-            laws: ["neo_hookean"; 2],
+            laws: ["st_venant_kirchhoff"; 2],
             top: "obstacle = [{ name = \"wall\", shape = { plane = { point = [0.3, 0, 0], normal = [1, 0, 0] } }, velocity = [0.0005, 0, 0] }]",
             formulation: "kind = \"total_lagrangian\"",
             time: FIRE,
