@@ -205,6 +205,9 @@ impl Parts<'_> {
             let mut pieces = facets(&typed.shape, body.spacing, used(anchor, self.file.dimension), self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
             let own = self.particles.iter().enumerate().filter(|(_, p)| p.body as usize == k);
+            // What lies deeper carries no piece of the surface.
+            let deep = -2.0 * body.spacing;
+            let own = own.filter(|(_, p)| typed.shape.distance(p.position, self.file.dimension) > deep);
             let (numbers, positions): (Vec<u32>, Vec<DVec3>) = own.map(|(i, p)| (i as u32, p.position)).unzip();
             let owners = owners(&pieces, &positions, body.spacing);
             list.extend(pieces.iter().zip(owners).map(|(&piece, owner)| Facet { owner: numbers[owner as usize], piece }));
