@@ -25,7 +25,8 @@ fn files() -> Vec<PathBuf> {
 /// Scenes on which nothing outside acts.
 fn free_scenes() -> Vec<Scene> {
     let scenes = files().into_iter().map(|path| Scene::open(&path, None, &[]).expect("the scene is good"));
-    let free = |s: &Scene| s.file.boundary.is_empty() && s.file.symmetry.is_empty() && s.file.body_force.is_none();
+    let walls = |s: &Scene| !(s.file.boundary.is_empty() && s.file.symmetry.is_empty() && s.obstacles.is_empty());
+    let free = |s: &Scene| !walls(s) && s.file.body_force.is_none();
     scenes.filter(free).collect()
 }
 
