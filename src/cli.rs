@@ -359,6 +359,10 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
     for (word, about) in contact::OTHERS {
         say(&format!("  {word:<24} {about}"));
     }
+    say("obstacles");
+    for kind in crate::obstacle::Kind::ALL {
+        say(&format!("  {:<24} {}", kind.name(), kind.about()));
+    }
     say("observables");
     for kind in observable::KINDS {
         say(&format!("  {:<24} {}", kind.word, kind.about));

@@ -38,7 +38,7 @@ kinds! {
     cylinder: Cylinder, "an endless round bar across the axis";
     #[serde(alias = "wedge")]
     cone: Cone, "a cone of any half angle, in 2D a wedge";
-    pyramid: Pyramid, "a pyramid of three faces at the same angle to the axis, such as Berkovich's: 3D only";
+    berkovich: Pyramid, "a pyramid of three faces at the same angle to the axis: 3D only";
 }
 
 impl Kind {

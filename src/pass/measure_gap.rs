@@ -62,8 +62,8 @@ impl<R: Copy, V> Contact<R, V> {
     }
 }
 
-/// The sums over the other surface: of weights, of weights times distances, and of weights times moves; and the
-/// mean of the pairs' numbers.
+/// The sums over the other surface: of weights, and of weights times distances, moves and normals; and the numbers of
+/// the last pair in the list.
 struct Sums<S: Space> {
     weight: S::Real,
     distance: S::Real,
