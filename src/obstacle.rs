@@ -38,7 +38,7 @@ kinds! {
     cylinder: Cylinder, "an endless round bar across the axis";
     #[serde(alias = "wedge")]
     cone: Cone, "a cone of any half angle, in 2D a wedge";
-    berkovich: Pyramid, "a pyramid of three faces at the same angle to the axis: 3D only";
+    berkovich: Berkovich, "a pyramid of three faces at the same angle to the axis: 3D only";
 }
 
 impl Kind {
@@ -47,7 +47,7 @@ impl Kind {
         match self {
             Kind::Plane | Kind::Sphere => true,
             Kind::Cylinder | Kind::Cone => dimension > 1,
-            Kind::Pyramid => dimension == 3,
+            Kind::Berkovich => dimension == 3,
         }
     }
 }
@@ -121,7 +121,7 @@ impl Obstacle<f64> {
         let tangent = self.sine / self.cosine;
         match Kind::ALL[self.kind as usize] {
             Kind::Cone => std::f64::consts::PI * tangent * tangent,
-            Kind::Pyramid => 27_f64.sqrt() * tangent * tangent,
+            Kind::Berkovich => 27_f64.sqrt() * tangent * tangent,
             _ => 0.0,
         }
     }
@@ -142,7 +142,7 @@ pub fn distance<S: Space>(obstacle: &Obstacle<S::Real>, x: S::Vec) -> (S::Real, 
         Kind::Sphere => ball::<S>(x, axis, obstacle.radius),
         Kind::Cylinder => ball::<S>(x - turn * S::inner(x, turn), axis, obstacle.radius),
         Kind::Cone => cone::<S>(obstacle, x, axis),
-        Kind::Pyramid => pyramid::<S>(obstacle, x, [axis, turn]),
+        Kind::Berkovich => pyramid::<S>(obstacle, x, [axis, turn]),
     }
 }
 

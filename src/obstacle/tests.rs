@@ -47,7 +47,7 @@ fn normals_are_gradients<S: Space<Real = f64>>() {
             // The nearest point of the surface lies at the end of the normal; over the edges of the pyramid it may not.
             // A place is a few units long, of which some ulp of 9e-16 are lost.
             let on_surface = distance::<S>(&obstacle, x - normal * gap).0;
-            assert!(on_surface.abs() < 3e-14 || (kind == Kind::Pyramid && gap > 0.0), "{kind:?} {x:?} {on_surface}");
+            assert!(on_surface.abs() < 3e-14 || (kind == Kind::Berkovich && gap > 0.0), "{kind:?} {x:?} {on_surface}");
         }
         assert!(bent < 3, "{kind:?}: {bent} kinks");
     }
@@ -82,12 +82,12 @@ fn distances_are_those_of_geometry() {
     close(at(Kind::Cone, 45.0, [0.0, 2.0, 0.0]), 2.0 * half, [0.0, half, -half]);
     close(at(Kind::Cone, 45.0, [0.0, 1.0, 2.0]), -half, [0.0, half, -half]);
     close(at(Kind::Cone, 45.0, [3.0, 0.0, -4.0]), 5.0, [0.6, 0.0, -0.8]);
-    close(at(Kind::Pyramid, 45.0, [3.0, 0.0, 1.0]), 2.0 * half, [half, 0.0, -half]);
+    close(at(Kind::Berkovich, 45.0, [3.0, 0.0, 1.0]), 2.0 * half, [half, 0.0, -half]);
 }
 
 #[test]
 fn normals_are_defined_where_the_gradient_is_not() {
-    for kind in [Kind::Cone, Kind::Pyramid] {
+    for kind in [Kind::Cone, Kind::Berkovich] {
         let obstacle = Obstacle::new(kind, DVec3::ZERO, [DVec3::Z, DVec3::X], 0.0, 70.0);
         for height in [0.0, 0.5, 1e-30] {
             let (gap, normal) = distance::<Solid<f64>>(&obstacle, Solid::<f64>::vec_from([0.0, 0.0, height]));
@@ -118,7 +118,7 @@ fn sections_have_the_area_of_the_indenter() {
     };
     let vickers = 4.0 * 68_f64.to_radians().tan().powi(2);
     let cases =
-        [(Kind::Pyramid, BERKOVICH, vickers), (Kind::Pyramid, 65.3, 24.56), (Kind::Cone, 70.3, vickers), (Kind::Cone, 45.0, PI)];
+        [(Kind::Berkovich, BERKOVICH, vickers), (Kind::Berkovich, 65.3, 24.56), (Kind::Cone, 70.3, vickers), (Kind::Cone, 45.0, PI)];
     for (kind, angle, factor) in cases {
         let obstacle = Obstacle::new(kind, DVec3::ZERO, [DVec3::Z, DVec3::X], 0.0, angle);
         let height = 0.3;

@@ -165,7 +165,7 @@ impl Parts<'_> {
                 let across = vector(axis).any_orthogonal_vector();
                 let about = vector(axis).normalize_or_zero();
                 let turned = glam::DQuat::from_axis_angle(about, turn.to_radians()) * across;
-                pointed(vector(apex), vector(axis), Kind::Pyramid, turned, BERKOVICH)
+                pointed(vector(apex), vector(axis), Kind::Berkovich, turned, BERKOVICH)
             }
         }
     }
