@@ -19,7 +19,7 @@ use canvas::{Align, Canvas};
 use std::path::Path;
 
 /// Width and height of a picture, in CSS pixels; a PNG has twice as many each way.
-pub(super) const SIZE: [f64; 2] = [520.0, 390.0];
+pub(super) const SIZE: [f64; 2] = [460.0, 370.0];
 
 /// What is measured along one side of a picture.
 #[derive(Debug, Clone, PartialEq)]

@@ -37,10 +37,10 @@ fn both_files_show_the_marks_in_their_size() {
     Picture::Row(vec![Picture::Chart(chart()), Picture::Map(map())]).write(&stem).unwrap();
     let file = |end: &str| stem.with_file_name(format!("v1.5-chart.{end}"));
     let svg = std::fs::read_to_string(file("svg")).unwrap();
-    assert!(svg.contains("<svg width=\"1040\" height=\"390\" viewBox=\"0 0 4160 1560\""), "{}", &svg[..200]);
+    assert!(svg.contains("<svg width=\"920\" height=\"370\" viewBox=\"0 0 3680 1480\""), "{}", &svg[..200]);
     assert!(svg.contains("Pareto front") && svg.contains("&lt;than&gt;"));
     let image = image::open(file("png")).unwrap().to_rgba8();
-    assert_eq!(image.dimensions(), (2080, 780));
+    assert_eq!(image.dimensions(), (1840, 740));
     // The colour of the first series and of the map's largest value are there, and text.
     let holds = |colour: [u8; 3]| image.pixels().any(|pixel| pixel.0[..3] == colour);
     assert!(holds(canvas::palette(0)) && holds(canvas::palette(1)) && holds([255; 3]));
