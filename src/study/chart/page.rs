@@ -90,16 +90,16 @@ impl Section {
         let parts: Vec<&Picture> = self.pictures.iter().flat_map(Picture::parts).collect();
         if !(parts.is_empty() && self.images.is_empty()) {
             out.push_str("<div class=\"pictures\">\n");
+            for (words, image) in &self.images {
+                let (words, data) = (escaped(words), BASE64_STANDARD.encode(png(image)?));
+                let source = format!("data:image/png;base64,{data}");
+                let _ = writeln!(out, "<figure><img alt=\"{words}\" src=\"{source}\"><figcaption>{words}</figcaption></figure>");
+            }
             for part in parts {
                 let svg = part.svg()?;
                 // The size in the file is that of a picture alone; here it follows the page.
                 let named = format!("<svg role=\"img\" aria-label=\"{}\" ", escaped(&part.title()));
                 let _ = writeln!(out, "<figure>{}</figure>", svg.trim().replacen("<svg ", &named, 1));
-            }
-            for (words, image) in &self.images {
-                let (words, data) = (escaped(words), BASE64_STANDARD.encode(png(image)?));
-                let source = format!("data:image/png;base64,{data}");
-                let _ = writeln!(out, "<figure><img alt=\"{words}\" src=\"{source}\"><figcaption>{words}</figcaption></figure>");
             }
             out.push_str("</div>\n");
         }
