@@ -1,7 +1,7 @@
 //! Bodies that break though nothing in their equations breaks.
 
 use crate::study::atlas::side::text;
-use crate::study::atlas::{Bound, Measure, Row, Side, Text};
+use crate::study::atlas::{Bound, Measure, Row, Side, Text, Trace};
 
 const COLLISION: Text = text!("scenes/colliding_rings.toml");
 
@@ -16,6 +16,6 @@ pub static RINGS: Row = Row {
     measure: Measure { about: "most pieces of a ring", of: |run| Ok(run.most("pieces_left")?.max(run.most("pieces_right")?)) },
     fails: Bound::Above(2.5),
     survives: Bound::Below(1.5),
-    trace: None,
+    trace: Some(Trace { series: "pieces_left", about: "pieces of the left ring", log: false }),
     small: &["duration=650"],
 };
