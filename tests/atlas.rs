@@ -2,7 +2,7 @@
 
 mod cli_support;
 
-use cli_support::Sandbox;
+use cli_support::{Sandbox, said, signal, until};
 use lithosph::study::atlas::Size;
 use lithosph::study::atlas::rows::ROWS;
 
@@ -55,6 +55,20 @@ fn a_finished_row_is_not_run_again() {
     assert!(table().starts_with(&first) && said.out.contains("contact_zones"), "{said:?}");
     assert_eq!(sandbox.lithosph(&[&ROWS_ASKED_FOR[..3], &["--force"]].concat()).code, Some(0));
     assert!(changed(series) > before);
+}
+
+#[test]
+fn an_interrupt_leaves_a_table_to_go_on_from() {
+    let sandbox = Sandbox::new("atlas-stop");
+    let rows = ["study", "atlas", "tensile_instability_line", "adhesive_contact"];
+    let child = sandbox.command(&rows).spawn().unwrap();
+    until("there is a row", || sandbox.exists("out/study/atlas.csv"));
+    signal(&child, libc::SIGINT);
+    let said = said(child);
+    assert_eq!(said.code, Some(130), "{said:?}");
+    assert!(said.err.contains("interrupted in adhesive_contact; finished rows are in out/study/atlas.csv"), "{said:?}");
+    let table = std::fs::read_to_string(sandbox.path("out/study/atlas.csv")).unwrap();
+    assert!(table.lines().count() == 2 && table.contains("tensile_instability_line,"), "{table}");
 }
 
 /// The numbers in the table are judged anew: one that is not as stated ends with exit code 1.

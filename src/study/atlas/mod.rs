@@ -14,11 +14,11 @@ mod table;
 pub use outcome::Outcome;
 pub use side::{Machine, Side, Size, Text};
 
-use crate::run::{INTERRUPTED, Stop};
+use crate::output::csv::shortest;
+use crate::run::Stop;
 use crate::scene::read::hint;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 use table::{Record, Table};
 
@@ -83,8 +83,8 @@ impl Bound {
 
     pub fn text(self) -> String {
         match self {
-            Self::Above(least) => format!("> {least}"),
-            Self::Below(most) => format!("< {most}"),
+            Self::Above(least) => format!("> {}", shortest(least)),
+            Self::Below(most) => format!("< {}", shortest(most)),
         }
     }
 }
@@ -145,12 +145,21 @@ pub fn run(request: &Request) -> Result<(String, bool), Stop> {
 fn finish(row: &'static Row, request: &Request, table: &mut Table, bar: &ProgressBar) -> Result<(), Stop> {
     let begin = Instant::now();
     let folder = page::folder(&request.out, row);
-    let verdict = row.run(&folder, Size::Full, |side| bar.set_message(format!("{}, {side}", row.name)))?;
-    if INTERRUPTED.load(Ordering::Relaxed) {
-        return Err(Stop::Interrupted(format!("interrupted in {}; the same command goes on from there", row.name)));
-    }
+    let ran = row.run(&folder, Size::Full, |side| bar.set_message(format!("{}, {side}", row.name)));
+    let verdict = ran.map_err(|stop| match stop {
+        Stop::Interrupted(_) => interrupted(row, table),
+        stop => stop,
+    })?;
     page::paint(&request.out, row).map_err(Stop::Failed)?;
     table.record(Record { row, verdict, seconds: begin.elapsed().as_secs_f64() }).map_err(Stop::Failed)
+}
+
+fn interrupted(row: &Row, table: &Table) -> Stop {
+    let file = table.path.display();
+    Stop::Interrupted(format!(
+        "interrupted in {}; finished rows are in {file}, and the same command goes on from there",
+        row.name
+    ))
 }
 
 /// Rows by name, in the order of the atlas.

@@ -78,8 +78,11 @@ pub fn write(out: &Path, table: &Table) -> Result<(), String> {
 }
 
 fn number(value: f64) -> String {
-    let plain = value == 0.0 || (1e-2..1e4).contains(&value.abs());
-    if plain { format!("{value:.3}") } else { format!("{value:.2e}") }
+    match value.abs() {
+        0.0 | 1e-2..100.0 => format!("{value:.3}"),
+        100.0..1e4 => format!("{value:.0}"),
+        _ => format!("{value:.2e}"),
+    }
 }
 
 fn summary(table: &Table) -> Section {

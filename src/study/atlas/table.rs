@@ -16,7 +16,7 @@ pub struct Record {
 /// The finished rows of a folder, in the order of the atlas.
 #[derive(Debug)]
 pub struct Table {
-    path: PathBuf,
+    pub path: PathBuf,
     pub records: Vec<Record>,
 }
 
@@ -24,7 +24,8 @@ const COLUMNS: [&str; 9] = ["row", "measure", "plain", "fails_if", "remedy", "su
 const AS_STATED: &str = "as stated";
 
 impl Table {
-    /// Reads what a folder has; rows of another version, or whose scenes have changed since, do not count.
+    /// Reads what a folder has; rows of another version, whose scenes have changed since, or whose runs are gone, do not
+    /// count.
     ///
     /// # Errors
     /// The file is something else or cannot be read.
@@ -35,7 +36,9 @@ impl Table {
             Ok(text) if text.starts_with(&header()) => text,
             Ok(_) => return Err(format!("{} is there and no atlas: --out names another folder", path.display())),
         };
-        let records = text.lines().skip(1).filter_map(|line| Record::from_cells(&cells(line))).collect();
+        let records = text.lines().skip(1).filter_map(|line| Record::from_cells(&cells(line)));
+        let runs = path.with_extension("");
+        let records = records.filter(|record| runs.join(record.row.name).is_dir()).collect();
         Ok(Self { path: path.into(), records })
     }
 
