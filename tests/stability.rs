@@ -6,7 +6,7 @@ use lithosph::run::{Finished, Options, run};
 use lithosph::scene::Scene;
 use lithosph::smoothing::Smoothing;
 use lithosph::study::von_neumann::{
-    ArtificialStress, Equations, Gradient, Lattice, Medium, Mode, fixed_wave_vectors, periodic_wave_vectors,
+    ArtificialStress, Equations, Gradient, Lattice, Medium, Mode, Waves, fixed_wave_vectors, periodic_wave_vectors,
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]
