@@ -30,18 +30,18 @@ pub struct Growth {
     /// The fastest growing wave, and how it moves.
     pub wave: [f64; 3],
     pub mode: Mode,
-    /// Largest angular frequency of all waves, 1/time.
+    /// Largest angular frequency of all waves without damping, 1/time.
     pub largest_frequency: f64,
     /// 2 over it: the longest step of leapfrog.
     pub leapfrog_step: f64,
 }
 
-/// The fastest wave and the largest frequency among those of a periodic box of `cells` particles a side.
+/// The fastest wave and the largest frequency among those of a periodic box of `cells` particles a side, two at least.
 pub fn growth(setting: &Setting, cells: usize) -> Growth {
-    let (waves, vectors) = (setting.waves(), setting.wave_vectors(cells));
-    let (wave, _) = waves.fastest(&vectors);
-    let largest_frequency = waves.largest_frequency(&vectors);
-    Growth { wave, mode: waves.mode(wave), largest_frequency, leapfrog_step: 2.0 / largest_frequency }
+    let vectors = setting.wave_vectors(cells);
+    let (wave, mode) = setting.fastest(&vectors).expect("a box of two particles has a wave");
+    let largest_frequency = setting.waves().largest_frequency(&vectors);
+    Growth { wave, mode, largest_frequency, leapfrog_step: 2.0 / largest_frequency }
 }
 
 #[cfg(test)]

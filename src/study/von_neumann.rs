@@ -11,20 +11,20 @@
 //! stress has its own Gamma and H, of the potential that (W/W(dp))^n g belongs to. With XSPH positions move by the
 //! part 1 - weight V sum (1 - cos(k.o)) W of what density and stress are integrated from.
 //!
-//! Monaghan's viscosity is not in A: it acts on approaching pairs alone, and so is not linear however small the wave.
-//!
-//! [`Lagrangian`] is the same for the Total Lagrangian formulation.
+//! Monaghan's viscosity is not in A but beside it ([`Viscous`]); [`Lagrangian`] is the same for the Total Lagrangian formulation.
 //!
 //! Sources: Swegle, Hicks & Attaway 1995 (the criterion W'' sigma > 0); Monaghan 2000 and Gray, Monaghan & Swift
 //! 2001 (artificial stress, scalar and principal).
 
 mod lagrangian;
 mod lattice;
+mod viscous;
 mod waves;
 
 pub use lagrangian::{Damage, Elastic, Lagrangian};
 pub use lattice::{Lattice, fixed_wave_vectors, periodic_wave_vectors};
-pub use waves::{Mode, Waves};
+pub use viscous::Viscous;
+pub use waves::{Mode, Waves, by_growth};
 
 use super::eigen::principal;
 use glam::{DMat3, DVec3};

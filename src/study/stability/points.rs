@@ -5,6 +5,7 @@ use super::simulate::{Measured, simulate};
 use crate::output::csv::shortest;
 use crate::run::{INTERRUPTED, Stop};
 use crate::study::accuracy::table::{cells, line};
+use crate::study::von_neumann::Mode;
 use std::fs::OpenOptions;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,8 +18,10 @@ const GROWS: f64 = 1e-4;
 /// that swing. A wave that does both is left out.
 pub fn chosen(setting: &Setting, cells: usize, count: usize) -> Vec<[f64; 3]> {
     let unit = setting.unit_rate();
-    let modes = setting.wave_vectors(cells).into_iter().map(|wave| (wave, setting.waves().mode(wave)));
-    let pure = modes.filter(|(_, mode)| mode.rate.min(mode.frequency) < 1e-6 * unit);
+    let modes = setting.wave_vectors(cells).into_iter().map(|wave| (wave, setting.mode(wave)));
+    // A neutral motion with damping keeps a displacement, but no velocity to measure.
+    let still = |mode: &Mode| setting.dissipates() && mode.rate.abs().max(mode.frequency) < GROWS * unit;
+    let pure = modes.filter(|(_, mode)| mode.rate.min(mode.frequency) < 1e-6 * unit && !still(mode));
     let (mut growing, stable): (Vec<_>, Vec<_>) = pure.partition(|(_, mode)| mode.rate > GROWS * unit);
     growing.sort_by(|a, b| b.1.rate.total_cmp(&a.1.rate));
     let some = growing.len().min(count.div_ceil(2)).max(count.saturating_sub(stable.len()));
@@ -138,12 +141,7 @@ fn row(text: &str, paths: usize) -> Option<Row> {
     let cells = cells(text);
     let numbers: Vec<f64> = cells.get(paths..)?.iter().map(|cell| cell.parse()).collect::<Result<_, _>>().ok()?;
     let &[x, y, z, theory_rate, theory_frequency, rate, frequency, difference] = &numbers[..] else { return None };
-    let theory = crate::study::von_neumann::Mode {
-        rate: theory_rate,
-        frequency: theory_frequency,
-        polarisation: [f64::NAN; 3],
-        quadrature: [f64::NAN; 3],
-    };
+    let theory = Mode { rate: theory_rate, frequency: theory_frequency, polarisation: [f64::NAN; 3], quadrature: [f64::NAN; 3] };
     Some(Row { setting: cells[..paths].to_vec(), run: Measured { wave: [x, y, z], theory, rate, frequency, difference } })
 }
 

@@ -79,7 +79,7 @@ fn agreement(found: &Found, runs: &Runs) -> String {
     let within = runs.iter().filter(|run| run.difference.abs() <= 0.1).count();
     let largest = runs.iter().map(|run| run.difference.abs()).fold(0.0, f64::max);
     let (name, count) = (name(&found.values), runs.len());
-    let damped = if found.setting.dissipates() { "; theory leaves out the damping that the runs have" } else { "" };
+    let damped = if found.setting.filters() { "; theory leaves out the velocity filter of the runs" } else { "" };
     format!("{name}{count} waves run, {within} within 10 % of theory, largest difference {:.2} %{damped}", 100.0 * largest)
 }
 

@@ -5,9 +5,11 @@ use crate::scene::file::{self, ArtificialForm, ArtificialSpacing, Density, File,
 use crate::scene::packing::Packing;
 use crate::scene::shape::{Coordinates, Shape};
 use crate::study::von_neumann::{
-    ArtificialStress, Damage, Elastic, Equations, Gradient, Lagrangian, Lattice, Medium, Waves, periodic_wave_vectors,
+    ArtificialStress, Damage, Elastic, Equations, Gradient, Lagrangian, Lattice, Medium, Mode, Viscous, Waves, by_growth,
+    periodic_wave_vectors,
 };
 use glam::DMat3;
+use rayon::prelude::*;
 
 /// The scene's first body as an infinite square lattice in a uniform state.
 #[derive(Debug, Clone)]
@@ -19,6 +21,7 @@ pub struct Setting {
     smoothing_length: f64,
     sound_speed: f64,
     theory: Theory,
+    viscous: Option<Viscous>,
     /// F and the damage of a Total Lagrangian body.
     pub(super) state: Option<(DMat3, Damage)>,
 }
@@ -65,9 +68,13 @@ impl Setting {
                 (Theory::Lagrangian(Box::new(Lagrangian::new(lattice, &elastic))), Some((deformation, damage)))
             }
         };
+        let viscous = f.viscosity.as_ref().filter(|typed| typed.alpha > 0.0).map(|typed| {
+            let (deformation, damage) = state.unwrap_or((DMat3::IDENTITY, Damage::default()));
+            Viscous::new(&lattice, deformation, &damage, typed.alpha * body.sound_speed(), typed.softening)
+        });
         let (spacing, smoothing_length) = (body.spacing, body.smoothing_length);
         let (file, sound_speed) = (lattice_file(scene), body.sound_speed());
-        Ok(Self { file, dimension: scene.dimension(), spacing, smoothing_length, sound_speed, theory, state })
+        Ok(Self { file, dimension: scene.dimension(), spacing, smoothing_length, sound_speed, theory, viscous, state })
     }
 
     /// The discrete equations of the lattice, linearised.
@@ -102,11 +109,35 @@ impl Setting {
         self.sound_speed / self.spacing
     }
 
-    /// Damping that the theory leaves out and a run has.
+    /// Motions of a wave with the scene's viscosity, by falling growth rate and rising frequency.
+    pub fn modes(&self, k: [f64; 3]) -> Vec<Mode> {
+        let mut modes = self.waves().modes(k);
+        if let Some(viscous) = &self.viscous {
+            modes.iter_mut().for_each(|mode| *mode = viscous.damped(k, *mode));
+            by_growth(&mut modes);
+        }
+        modes
+    }
+
+    /// The fastest growing motion of a wave; of stable ones the slowest.
+    pub fn mode(&self, k: [f64; 3]) -> Mode {
+        self.modes(k).swap_remove(0)
+    }
+
+    /// The fastest growing of some waves, and how it moves.
+    pub fn fastest(&self, wave_vectors: &[[f64; 3]]) -> Option<([f64; 3], Mode)> {
+        let modes = wave_vectors.par_iter().map(|&k| (k, self.mode(k)));
+        modes.max_by(|a, b| a.1.rate.total_cmp(&b.1.rate))
+    }
+
+    /// The run dissipates.
     pub fn dissipates(&self) -> bool {
-        let f = &self.file.formulation;
-        let viscous = f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0);
-        viscous || f.velocity_filter.is_some_and(|weight| weight > 0.0)
+        self.viscous.is_some() || self.filters()
+    }
+
+    /// Velocities are filtered, which the theory leaves out.
+    pub fn filters(&self) -> bool {
+        self.file.formulation.velocity_filter.is_some_and(|weight| weight > 0.0)
     }
 
     /// Waves of a periodic box with so many particles along each axis.

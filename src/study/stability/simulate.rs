@@ -26,8 +26,8 @@ pub struct Measured {
     pub rate: f64,
     /// Angular frequency, 1/time.
     pub frequency: f64,
-    /// Measured less theoretical rate (frequency of a wave that swings) over the latter, or over a hundredth of the
-    /// largest frequency where that is more.
+    /// Measured less theoretical rate (frequency of a wave that swings, distance of the exponents where it also fades)
+    /// over the latter, or over a hundredth of the largest frequency where that is more.
     pub difference: f64,
 }
 
@@ -55,15 +55,15 @@ pub(super) struct Course {
 /// # Errors
 /// One sentence where the wave grows and swings at once, or the run fails.
 pub fn simulate(setting: &Setting, cells: usize, wave: [f64; 3]) -> Result<Measured, String> {
-    let theory = setting.waves().mode(wave);
-    let zone = setting.wave_vectors(cells.min(48));
+    let theory = setting.mode(wave);
+    let zone = setting.wave_vectors(cells.min(if setting.dimension == 3 { 16 } else { 48 }));
     let highest = setting.waves().largest_frequency(&zone).max(setting.unit_rate());
     let floor = 0.01 * highest;
     if theory.rate.min(theory.frequency) > 1e-3 * floor {
         return Err(format!("the wave {wave:?} grows and swings at once: its run is not simulated"));
     }
-    let (_, fastest) = setting.waves().fastest(&zone);
-    let scale = theory.rate.max(theory.frequency).max(floor);
+    let fastest = setting.fastest(&zone).map_or(0.0, |(_, mode)| mode.rate);
+    let scale = theory.rate.abs().max(theory.frequency).max(floor);
     let followed = if theory.rate > 0.0 { FOLLOWED[0] } else { FOLLOWED[1] } / scale;
     let between = followed.min(LONGEST / fastest.max(f64::MIN_POSITIVE)) / SAMPLES as f64;
     let longest = (FINE / scale).min(1.0 / highest);
@@ -77,8 +77,11 @@ pub fn simulate(setting: &Setting, cells: usize, wave: [f64; 3]) -> Result<Measu
         (Some(_), _) => halo::amplitudes::<Solid<f64>>(setting, &start, course)?,
     };
     let (rate, frequency) = exponent(&amplitudes, between, setting.dissipates());
-    let number = |rate: f64, frequency: f64| if theory.rate > 0.0 { rate - frequency } else { frequency - rate.max(0.0) };
-    let difference = (number(rate, frequency) - number(theory.rate, theory.frequency)) / scale;
+    let difference = match theory.rate > 0.0 {
+        true => rate - theory.rate - frequency,
+        false if setting.dissipates() => (rate - theory.rate).hypot(frequency - theory.frequency),
+        false => frequency - rate - theory.frequency,
+    } / scale;
     Ok(Measured { wave, theory, rate, frequency, difference })
 }
 
@@ -96,6 +99,10 @@ fn exponent(samples: &[f64], between: f64, damped: bool) -> (f64, f64) {
     }
     let (twice_cosh, product) = if damped {
         let determinant = sums[0][0] * sums[1][1] - sums[0][1] * sums[1][0];
+        if determinant <= 1e-12 * sums[0][0] * sums[1][1] {
+            // One exponent alone.
+            return ((right[0] / sums[0][0]).ln() / between, 0.0);
+        }
         let a = (right[0] * sums[1][1] - right[1] * sums[0][1]) / determinant;
         let b = (right[1] * sums[0][0] - right[0] * sums[1][0]) / determinant;
         (a, -b)
@@ -226,5 +233,6 @@ mod tests {
         near(exponent(&sampled(&|t| (1.3 * t + 0.4).cos() * (-0.1 * t).exp()), 0.2, true), (-0.1, 1.3));
         near(exponent(&sampled(&|t| (0.7 * t).exp() + 0.3 * (-0.9 * t).exp()), 0.2, true), (0.7, 0.0));
         near(exponent(&sampled(&|_| 1.0), 0.2, false), (0.0, 0.0));
+        near(exponent(&sampled(&|t| (-0.3 * t).exp()), 0.2, true), (-0.3, 0.0));
     }
 }

@@ -189,6 +189,13 @@ fn runs_do_as_theory_says() {
             "body.block.relative_volume=1.02",
             "formulation.xsph=0.5",
         ],
+        vec![sheared, "formulation.viscosity={alpha=0.2}"],
+        vec![
+            "formulation.kind=eulerian",
+            "material.medium.law=elastic",
+            "body.block.relative_volume=1.02",
+            "formulation.viscosity={alpha=0.2}",
+        ],
     ];
     for case in &cases {
         let setting = setting(case);
@@ -198,7 +205,8 @@ fn runs_do_as_theory_says() {
         for wave in [fastest, vectors[5], vectors[40]] {
             let run = simulate(&setting, cells, wave).unwrap();
             println!("{case:?} {run:?}");
-            assert!(run.difference.abs() < 0.01, "{case:?} {run:?}");
+            let tolerance = if setting.dissipates() { 0.03 } else { 0.01 };
+            assert!(run.difference.abs() < tolerance, "{case:?} {run:?}");
         }
     }
 }

@@ -31,7 +31,7 @@ impl Zone {
         let phase = |number: i64| 2.0 * PI * number as f64 / cells as f64;
         let sample = |x: i64, y: i64| {
             let wave = [phase(x), phase(y), 0.0];
-            let mode = setting.waves().mode(wave.map(|k| k / setting.spacing()));
+            let mode = setting.mode(wave.map(|k| k / setting.spacing()));
             let unit = setting.unit_rate();
             // A wave without an end moves the body as a whole.
             let whole = x == 0 && y == 0;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 /// One plane wave's fastest growing motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
-    /// Growth rate, 1/time; 0 where the wave is stable.
+    /// Growth rate, 1/time; 0 where the wave is stable, less where it is damped.
     pub rate: f64,
     /// Angular frequency; 0 for growth without oscillation.
     pub frequency: f64,
@@ -15,6 +15,11 @@ pub struct Mode {
     pub polarisation: [f64; 3],
     /// Imaginary part of the eigenvector: the part that moves a quarter of a period away. Mostly zero.
     pub quadrature: [f64; 3],
+}
+
+/// By falling growth rate, then by rising frequency.
+pub fn by_growth(modes: &mut [Mode]) {
+    modes.sort_by(|a, b| b.rate.total_cmp(&a.rate).then(a.frequency.total_cmp(&b.frequency)));
 }
 
 /// A uniform, infinite lattice of which the discrete equations have been linearised.
@@ -45,7 +50,7 @@ pub trait Waves: Sync {
             Mode { rate, frequency: frequency.abs(), polarisation, quadrature }
         };
         let mut modes: Vec<Mode> = self.eigenpairs(k).iter().filter(|pair| pair.value[1] >= 0.0).map(of).collect();
-        modes.sort_by(|a, b| b.rate.total_cmp(&a.rate).then(a.frequency.total_cmp(&b.frequency)));
+        by_growth(&mut modes);
         modes
     }
 
