@@ -2,9 +2,9 @@
 //! Neumann's analysis of the same discrete equations gives, and a stable one must not grow.
 
 use lithosph::backend::Choice;
-use lithosph::run::{Finished, Options, run};
+use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;
-use lithosph::study::stability::{Setting, chosen, growth, simulate};
+use lithosph::study::stability::{self, Request, Setting, chosen, growth, simulate};
 use lithosph::study::von_neumann::{Gradient, Mode, fixed_wave_vectors};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -360,4 +360,39 @@ fn maps_of_theory_and_of_runs_agree() {
     }
     println!("{growing} growing and {swinging} swinging waves");
     assert!(growing >= 12 && growing + swinging >= 45, "{growing} {swinging}");
+}
+
+/// The command writes its tables, pictures and page, and runs no wave twice.
+#[test]
+fn a_study_goes_on_where_it_was_stopped() {
+    let folder = std::env::temp_dir().join(format!("lithosph-stability-{}", std::process::id()));
+    let out = folder.join("block.csv");
+    let request = |simulate: usize, cells: usize| Request {
+        scene: "scenes/tension_square.toml".into(),
+        vary: vec!["formulation.smoothing_length=1.3,1.8".into()],
+        cells,
+        simulate,
+        out: Some(out.clone()),
+        ..Request::default()
+    };
+    let text = stability::run(&request(2, 12)).unwrap();
+    assert!(text.contains("1.3: 2 waves run, 2 within 10 % of theory"), "{text}");
+    let read = |end: &str| std::fs::read_to_string(folder.join(end)).unwrap_or_else(|error| panic!("{end}: {error}"));
+    let short = read("block-runs.csv");
+    assert_eq!(short.lines().count(), 2 + 4);
+    // The last row is cut, as by a kill, and more waves are asked for: what is whole stays as it is.
+    std::fs::write(folder.join("block-runs.csv"), &short[..short.len() - 5]).unwrap();
+    stability::run(&request(3, 12)).unwrap();
+    let long = read("block-runs.csv");
+    let kept: Vec<&str> = short.lines().take(5).collect();
+    assert!(long.lines().take(5).eq(kept) && long.lines().count() == 2 + 6, "{long}");
+    assert_eq!(read("block.csv").lines().count(), 3);
+    assert_eq!(read("block-zone.csv").lines().count(), 1 + 2 * (13 * 13 - 1));
+    assert!(read("block.html").contains("<svg") && read("block-2.svg").contains("<svg"));
+    assert!(folder.join("block-1.png").exists() && folder.join("block-runs.png").exists());
+    match stability::run(&request(3, 16)) {
+        Err(Stop::Refused(reason)) => assert!(reason.contains("--force"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
 }

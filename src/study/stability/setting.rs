@@ -11,7 +11,7 @@ use crate::study::von_neumann::{
 use glam::DMat3;
 use rayon::prelude::*;
 
-/// The scene's first body as an infinite square lattice in a uniform state.
+/// The scene's first body as an infinite square lattice in a uniform state. A body that yields is taken for elastic.
 #[derive(Debug, Clone)]
 pub struct Setting {
     /// The scene without all that a lattice lacks: boundaries, contacts, loads, observables.
