@@ -5,7 +5,7 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::{buckling, sweep};
+use crate::study::{buckling, stability, sweep};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -22,6 +22,39 @@ pub(super) enum Study {
     Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
+    /// Growth rates of plane waves on the scene's lattice, in theory and in runs; the longest steps of the integrators.
+    ///
+    /// The first body is taken for an infinite square lattice in its uniform state: `relative_volume` and
+    /// `deviatoric_stress` of an Eulerian body, `[study.stability]` of a Total Lagrangian one. Runs that a kill left out
+    /// are made up for by the same command.
+    Stability(StabilityArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StabilityArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// An axis of the matrix: `--vary formulation.smoothing_length=1.2,1.3,1.5`. May be given several times.
+    #[arg(long, value_name = "PATH=V1,V2")]
+    vary: Vec<String>,
+    /// Particles along each axis of the periodic box whose waves are looked at.
+    #[arg(long, default_value_t = 48)]
+    cells: usize,
+    /// Waves of each setting to run beside theory.
+    #[arg(long, value_name = "WAVES", default_value_t = 0)]
+    simulate: usize,
+    /// Also find the integrators' longest steps, from runs too.
+    #[arg(long)]
+    limits: bool,
+    /// The table of settings; out/study/SCENE[-VARIANT]-stability.csv unless given. The rest lies beside it.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Begin anew and overwrite the runs.
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -102,6 +135,7 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Accuracy(args) => accuracy(args),
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
+        Study::Stability(args) => stable(args),
     }
 }
 
@@ -125,6 +159,22 @@ fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let path = args.out.clone().unwrap_or_else(usual);
     buckling::write_mode(&scene, &found, &path).map_err(Stop::Failed)?;
     say(&format!("{}mode written to {}", found.text(), path.display()));
+    Ok(0)
+}
+
+fn stable(args: &StabilityArgs) -> Result<i32, Stop> {
+    let request = stability::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        vary: args.vary.clone(),
+        cells: args.cells,
+        simulate: args.simulate,
+        limits: args.limits,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    say(&stability::run(&request)?);
     Ok(0)
 }
 

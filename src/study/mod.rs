@@ -4,5 +4,6 @@ pub mod accuracy;
 pub mod buckling;
 pub mod chart;
 pub mod eigen;
+pub mod stability;
 pub mod sweep;
 pub mod von_neumann;
