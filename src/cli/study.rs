@@ -5,8 +5,10 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
+use crate::study::tensile::{self, Part};
 use crate::study::{buckling, sweep};
 use clap::{Args, Subcommand, ValueEnum};
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 #[derive(Debug, Subcommand)]
@@ -22,6 +24,20 @@ pub(super) enum Study {
     Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
+    /// The tensile instability: the repulsive force, bond viscosity and partitions of unity against chapter 5 of Strand 2010.
+    ///
+    /// Says for each of its figures whether it comes out; runs that are done are kept.
+    Tensile(TensileArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TensileArgs {
+    /// Parts to do; all unless given.
+    #[arg(value_enum)]
+    parts: Vec<Part>,
+    /// Folder of the page, tables and pictures.
+    #[arg(long, default_value = "out/study/tensile")]
+    out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -102,6 +118,7 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Accuracy(args) => accuracy(args),
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
+        Study::Tensile(args) => tensile(args),
     }
 }
 
@@ -125,6 +142,16 @@ fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let path = args.out.clone().unwrap_or_else(usual);
     buckling::write_mode(&scene, &found, &path).map_err(Stop::Failed)?;
     say(&format!("{}mode written to {}", found.text(), path.display()));
+    Ok(0)
+}
+
+fn tensile(args: &TensileArgs) -> Result<i32, Stop> {
+    let request = tensile::Request { parts: args.parts.clone(), out: args.out.clone() };
+    say(&tensile::study(&request, &|what| {
+        if std::io::stderr().is_terminal() {
+            eprintln!("{what}");
+        }
+    })?);
     Ok(0)
 }
 

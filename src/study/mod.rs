@@ -5,4 +5,5 @@ pub mod buckling;
 pub mod chart;
 pub mod eigen;
 pub mod sweep;
+pub mod tensile;
 pub mod von_neumann;
