@@ -1,9 +1,10 @@
 //! The repulsive force in compression: whether the lattice needs it there, and what either sign of it does; 5.1.3.6.
 
-use super::case::{Case, Form, RANGE, STABLE, calmest, digits, logarithmic, shown, windows};
+use super::case::{Case, Form, STABLE};
 use super::draw::{chart, curve, dashed};
 use super::findings::{Exhibit, Findings, Statement, table_columns};
 use super::published as strand;
+use super::windows::{RANGE, calmest, digits, logarithmic, shown, windows};
 use crate::study::chart::{Axis, Table};
 use rayon::prelude::*;
 
@@ -77,7 +78,7 @@ fn zeroed(growth: f64) -> f64 {
 /// c/dx of the steel of his test, 1/s: 5000 m/s over 1 mm. The thesis prints neither material nor speed of sound.
 pub const UNIT_RATE: f64 = 5e6;
 
-fn statements() -> Vec<Statement> {
+pub fn statements() -> Vec<Statement> {
     let mut statements = Vec::new();
     let quiet = Case::new(2, 1.3).volume(VOLUMES[0]).growth() * UNIT_RATE * strand::CLUMPED;
     statements.push(Statement::new(

@@ -1,8 +1,8 @@
 //! The edge of a linear function: estimates of f(x) = x and of its slope near the ends of a row of particles; figure 3.3-5.
 
-use super::case::digits;
 use super::draw::{chart, curve, dashed};
 use super::findings::{Exhibit, Findings, Statement, table_columns};
+use super::windows::digits;
 use crate::smoothing::Smoothing;
 use crate::study::chart::{Axis, Table};
 

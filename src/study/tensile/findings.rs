@@ -86,3 +86,8 @@ pub fn write_csv(table: &Table, path: &Path) -> Result<(), String> {
     let text: String = std::iter::once(&table.columns).chain(&table.rows).map(line).collect();
     std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
+
+/// Within a part of the published number.
+pub fn near(found: f64, published: f64, part: f64) -> bool {
+    (found / published - 1.0).abs() < part
+}

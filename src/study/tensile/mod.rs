@@ -4,17 +4,23 @@
 
 mod case;
 mod compression;
+mod criteria;
 mod draw;
 mod edge;
 mod findings;
+mod line;
 mod particles;
 mod partition;
+mod plane;
+mod points;
 mod published;
 mod repulsion;
 mod runs;
 mod sweeps;
+mod tension;
 mod unity;
 mod viscosity;
+mod windows;
 mod work;
 
 #[cfg(test)]
@@ -81,13 +87,13 @@ impl Part {
                 repulsion::epsilon(),
                 sweeps::exponent(),
                 sweeps::smoothing_length(),
-                sweeps::tension(),
+                tension::tension(),
             ]),
             Self::Runs => runs::runs(&folder.join("runs"), tell)?,
             Self::Work => work::work(),
             Self::Compression => compression::compression(),
             Self::Viscosity => viscosity::viscosity()?,
-            Self::Partition => joined(vec![unity::lattices(), unity::criteria()]),
+            Self::Partition => joined(vec![unity::lattices(), criteria::criteria()]),
             Self::Edge => edge::linear(),
         })
     }

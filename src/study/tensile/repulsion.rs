@@ -1,9 +1,11 @@
 //! The repulsive force by von Neumann's analysis: what dp means, and the epsilon that let no wave grow.
 
-use super::case::{Case, Form, Law, RANGE, STABLE, Spacing, calmest, digits, logarithmic, shown, windows};
+use super::case::{Case, Form, Law, STABLE, Spacing};
 use super::draw::{chart, curve, dashed, dots};
 use super::findings::{Exhibit, Findings, Statement, table_columns};
 use super::published as strand;
+use super::windows::{RANGE, calmest, digits, logarithmic, shown, windows};
+use super::{line, plane};
 use crate::study::chart::{Axis, Table};
 use rayon::prelude::*;
 
@@ -106,8 +108,8 @@ pub fn epsilon() -> Findings {
         ..Exhibit::default()
     });
     findings.exhibits.push(all_windows());
-    findings.statements.extend(line_statements());
-    findings.statements.extend(plane_statements());
+    findings.statements.extend(line::line_statements());
+    findings.statements.extend(plane::plane_statements());
     findings
 }
 
@@ -155,131 +157,4 @@ fn all_windows() -> Exhibit {
         table: Some(Table { columns: table_columns(&columns), rows }),
         ..Exhibit::default()
     }
-}
-
-fn line_statements() -> Vec<Statement> {
-    let mut statements = Vec::new();
-    for (spacing, least) in strand::LINE_LEAST {
-        let case = Case::new(1, 1.3).spacing(spacing);
-        let (found, trace) = (windows(case, case.range(), SCAN), windows(case.form(Form::Trace), case.range(), SCAN));
-        statements.push(Statement::new(
-            "5.1.3.2 and figure 5.1-7, p. 112-113",
-            format!("on a line, dp {}, stable from epsilon {least} to about {}", spacing.word(), strand::LINE_MOST),
-            format!("stable for {} as epsilon |P|, for {} as epsilon tr(sigma)", shown(&found), shown(&trace)),
-            [found, trace].iter().any(|w| w.len() == 1 && near(w[0][0], least, 0.1) && near(w[0][1], strand::LINE_MOST, 0.3)),
-        ));
-        let inside = case.epsilon(least).is_stable();
-        statements.push(Statement::new(
-            "5.1.3.2, p. 112",
-            format!("epsilon {least} with dp {} is stable on a line", spacing.word()),
-            if inside { "stable".into() } else { format!("grows at {} c/dx", digits(case.epsilon(least).growth())) },
-            inside,
-        ));
-    }
-    for (ratio, least) in strand::LINE_LEAST_BY_RATIO.into_iter().filter(|(ratio, _)| *ratio != 1.3) {
-        let found = windows(Case::new(1, ratio), RANGE, SCAN);
-        let published = least.map_or("no epsilon is stable".into(), |least: f64| format!("stable from epsilon {least:.3}"));
-        let agrees = match least {
-            None => found.is_empty(),
-            Some(least) => found.first().is_some_and(|w| near(w[0], least, 0.1)),
-        };
-        let text = format!("stable for {}", shown(&found));
-        statements.push(Statement::new(
-            "5.1.3.6 and figure 5.1-10, p. 118-119",
-            format!("on a line, h {ratio} dx: {published}"),
-            text,
-            agrees,
-        ));
-    }
-    let falls = |ratio| windows(Case::new(1, ratio), RANGE, SCAN)[0][0];
-    let (narrow, wide) = (falls(1.3), falls(1.8));
-    statements.push(Statement::new(
-        "5.1.3.6, p. 118",
-        "on a line the least stable epsilon falls with h, to 0.54 of it from h 1.3 to 1.8 dx",
-        format!("it falls, to {} of it", digits(wide / narrow)),
-        wide < narrow,
-    ));
-    statements
-}
-
-fn plane_statements() -> Vec<Statement> {
-    let mut statements = Vec::new();
-    let place = "5.1.3.2 and figure 5.1-6, p. 111-112";
-    for spacing in [Spacing::Mean, Spacing::Initial] {
-        let case = Case::new(2, 1.3).spacing(spacing);
-        let found = windows(case, case.range(), SCAN);
-        let (best, least) = calmest(case, case.range(), SCAN);
-        let text =
-            format!("stable for {}; least growth {} c/dx, of {} without", shown(&found), digits(least), digits(case.growth()));
-        statements.push(Statement::new(
-            place,
-            format!("in the plane, h 1.3 dx, dp {}: no epsilon is stable", spacing.word()),
-            text,
-            found.is_empty(),
-        ));
-        if spacing == Spacing::Mean {
-            let at = case.epsilon(strand::PLANE_CALMEST).growth();
-            statements.push(Statement::new(
-                place,
-                format!("the calmest epsilon there is {}", strand::PLANE_CALMEST),
-                format!(
-                    "{}; {} grows at {} c/dx, and with dp initial, where {} is calmest, at {}",
-                    digits(best),
-                    strand::PLANE_CALMEST,
-                    digits(at),
-                    digits(calmest(Case::new(2, 1.3), RANGE, SCAN).0),
-                    digits(Case::new(2, 1.3).epsilon(strand::PLANE_CALMEST).growth())
-                ),
-                near(best, strand::PLANE_CALMEST, 0.3),
-            ));
-        }
-    }
-    let place = "5.1.3.6 and figure 5.1-11, p. 119-120";
-    let middle = windows(Case::new(2, 1.52), RANGE, SCAN);
-    statements.push(Statement::new(place, "in the plane, h 1.52 dx: no epsilon is stable", shown(&middle), middle.is_empty()));
-    let wide = Case::new(2, 1.8);
-    let found = windows(wide, RANGE, SCAN);
-    statements.push(Statement::new(
-        place,
-        "in the plane, h 1.8 dx: some epsilon is stable",
-        format!("stable for {}", shown(&found)),
-        !found.is_empty(),
-    ));
-    for (epsilon, stable) in [(strand::PLANE_WIDE_STABLE, true), (strand::PLANE_WIDE_UNSTABLE, false)] {
-        let growth = wide.epsilon(epsilon).growth();
-        statements.push(Statement::new(
-            place,
-            format!("in the plane, h 1.8 dx: epsilon {epsilon} is {}stable", if stable { "" } else { "un" }),
-            if growth < STABLE {
-                "stable".into()
-            } else {
-                format!("grows at {} c/dx, {} without", digits(growth), digits(wide.growth()))
-            },
-            (growth < STABLE) == stable,
-        ));
-    }
-    for (dimension, epsilon) in (1..).zip(strand::LIBERSKY) {
-        let case = Case::new(dimension, 1.3);
-        let (with, without) = (case.epsilon(epsilon).growth(), case.growth());
-        statements.push(Statement::new(
-            "5.1.3.2, p. 111 (Libersky)",
-            format!("epsilon {epsilon} works in {dimension}D"),
-            if with < STABLE { "stable".into() } else { format!("grows at {} c/dx, {} without", digits(with), digits(without)) },
-            with < STABLE,
-        ));
-    }
-    let windows: Vec<_> = (1..=3).map(|dimension| windows(Case::new(dimension, 1.8), RANGE, SCAN)).collect();
-    let width = |w: &Vec<[f64; 2]>| w.iter().map(|[low, high]| high / low).fold(1.0, f64::max);
-    statements.push(Statement::new(
-        "5.1.3.7, p. 121",
-        "in space the window of epsilon is likely narrower still than in the plane (not run)",
-        format!("h 1.8 dx: 1D {}, 2D {}, 3D {}", shown(&windows[0]), shown(&windows[1]), shown(&windows[2])),
-        width(&windows[2]) <= width(&windows[1]),
-    ));
-    statements
-}
-
-/// Within a part of the published number.
-pub fn near(found: f64, published: f64, part: f64) -> bool {
-    (found / published - 1.0).abs() < part
 }

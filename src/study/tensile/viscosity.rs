@@ -5,10 +5,11 @@
 //! |W'(n)|/(n^2 + e h^2) over n > 0, and s^2 + gamma s = lambda: s > 0 exactly where lambda > 0. For longer waves that is
 //! an estimate, which is good near the sawtooth.
 
-use super::case::{Case, RANGE, digits, logarithmic, windows};
+use super::case::Case;
 use super::draw::{chart, curve, dots};
 use super::findings::{Exhibit, Findings, Statement, table_columns};
 use super::particles::{Block, Row, Rule, border, growth};
+use super::windows::{RANGE, digits, logarithmic, windows};
 use crate::backend::Choice;
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
@@ -110,7 +111,7 @@ pub fn viscosity() -> Result<Findings, Stop> {
     Ok(Findings { exhibits: vec![threshold, rods], statements })
 }
 
-fn line_statements() -> Vec<Statement> {
+pub fn line_statements() -> Vec<Statement> {
     let least = windows(Case::new(1, 1.3), RANGE, 141)[0][0];
     // Well past the time in which the plain method grows by ten e-foldings.
     let grows = |epsilon: f64, viscosity| {

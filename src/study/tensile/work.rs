@@ -1,11 +1,12 @@
 //! The work of the repulsive force: in Swegle's test, as the thesis sums it and as force times way, and on closed paths;
 //! section 5.1.3.4.
 
-use super::case::{Case, digits};
+use super::case::Case;
 use super::draw::{chart, curve};
 use super::findings::{Exhibit, Findings, Statement, table_columns};
 use super::particles::{Block, Row, Rule};
 use super::published as strand;
+use super::windows::digits;
 use crate::study::chart::{Axis, Table};
 use glam::DVec3;
 
