@@ -5,8 +5,10 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
+use crate::study::tensile::{self, Part};
 use crate::study::{buckling, stability, sweep};
 use clap::{Args, Subcommand, ValueEnum};
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 #[derive(Debug, Subcommand)]
@@ -28,6 +30,10 @@ pub(super) enum Study {
     /// `deviatoric_stress` of an Eulerian body, `[study.stability]` of a Total Lagrangian one. Runs that a kill left out
     /// are made up for by the same command.
     Stability(StabilityArgs),
+    /// The tensile instability: the repulsive force, bond viscosity and partitions of unity against chapter 5 of Strand 2010.
+    ///
+    /// Says for each of its figures whether it comes out; runs that are done are kept.
+    Tensile(TensileArgs),
 }
 
 #[derive(Debug, Args)]
@@ -55,6 +61,16 @@ pub(super) struct StabilityArgs {
     /// Begin anew and overwrite the runs.
     #[arg(long)]
     force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TensileArgs {
+    /// Parts to do; all unless given.
+    #[arg(value_enum)]
+    parts: Vec<Part>,
+    /// Folder of the page, tables and pictures.
+    #[arg(long, default_value = "out/study/tensile")]
+    out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -136,6 +152,7 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
         Study::Stability(args) => stable(args),
+        Study::Tensile(args) => tensile(args),
     }
 }
 
@@ -175,6 +192,16 @@ fn stable(args: &StabilityArgs) -> Result<i32, Stop> {
         force: args.force,
     };
     say(&stability::run(&request)?);
+    Ok(0)
+}
+
+fn tensile(args: &TensileArgs) -> Result<i32, Stop> {
+    let request = tensile::Request { parts: args.parts.clone(), out: args.out.clone() };
+    say(&tensile::study(&request, &|what| {
+        if std::io::stderr().is_terminal() {
+            eprintln!("{what}");
+        }
+    })?);
     Ok(0)
 }
 

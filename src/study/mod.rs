@@ -6,4 +6,5 @@ pub mod chart;
 pub mod eigen;
 pub mod stability;
 pub mod sweep;
+pub mod tensile;
 pub mod von_neumann;
