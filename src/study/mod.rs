@@ -1,6 +1,7 @@
 //! Theory and sweeps that runs are compared with.
 
 pub mod accuracy;
+pub mod atlas;
 pub mod buckling;
 pub mod chart;
 pub mod eigen;
