@@ -1,7 +1,7 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .NOTPARALLEL:
-.PHONY: help demo test verify bench setup
+.PHONY: help demo test browser verify bench setup
 
 # Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -30,6 +30,13 @@ test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	awk '/^test result:/ { passed += $$4; failed += $$6 } END { print passed + 0 " passed, " failed + 0 " failed" }' \
 	    target/test-without-hdf5.log target/test.log; \
 	exit $$status
+
+browser: ## Make a report of each kind, small, and look at it in headless Chromium at two widths
+	@.ci/setup browser
+	cargo build --release
+	@rm -rf target/browser
+	cargo run --release --quiet -- study accuracy scenes/rod_impact.toml --vary time.cfl=0.2,0.4 --out target/browser/accuracy.csv
+	python3 tests/report_in_browser.py target/browser/*.html
 
 verify: ## Run every scene, compare with what it expects, write docs/verification.txt
 	@.ci/setup build

@@ -117,8 +117,12 @@ fn sections_have_the_area_of_the_indenter() {
         (0..rays).map(ray).sum::<f64>() * TAU / rays as f64
     };
     let vickers = 4.0 * 68_f64.to_radians().tan().powi(2);
-    let cases =
-        [(Kind::Berkovich, BERKOVICH, vickers), (Kind::Berkovich, 65.3, 24.56), (Kind::Cone, 70.3, vickers), (Kind::Cone, 45.0, PI)];
+    let cases = [
+        (Kind::Berkovich, BERKOVICH, vickers),
+        (Kind::Berkovich, 65.3, 24.56),
+        (Kind::Cone, 70.3, vickers),
+        (Kind::Cone, 45.0, PI),
+    ];
     for (kind, angle, factor) in cases {
         let obstacle = Obstacle::new(kind, DVec3::ZERO, [DVec3::Z, DVec3::X], 0.0, angle);
         let height = 0.3;

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod buckling;
+pub mod chart;
 pub mod eigen;
 pub mod sweep;
 pub mod von_neumann;
