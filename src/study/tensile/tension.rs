@@ -43,15 +43,19 @@ pub fn tension() -> Findings {
         ],
     );
     let rows = found.iter().map(|(strain, list)| vec![format!("{:.5}", 1.0 + strain), shown(list)]).collect();
+    let with: Vec<f64> = found.iter().filter(|(_, list)| !list.is_empty()).map(|(strain, _)| 1.0 + strain).collect();
+    let between = match with[..] {
+        [first, .., last] => format!("from V {first:.4} to {last:.4}"),
+        _ => "nowhere".into(),
+    };
     let exhibit = Exhibit {
         stem: "tension".into(),
         heading: "Growth and windows over the tension".into(),
-        text: vec![
-            "The growth follows the root of the tension. The window of epsilon in the plane, where there is one, stays where \
-             it is, as the force is in proportion to the tension; but there is none below V 1.005, where the stiffness that \
-             the force takes in bulk outweighs what it adds, nor above 1.09."
-                .into(),
-        ],
+        text: vec![format!(
+            "The growth follows the root of the tension. The window of epsilon in the plane stays where it is, as the force is \
+                 in proportion to the tension, but there is one only {between}: in weaker tension the stiffness that the force \
+                 takes in bulk outweighs what it adds."
+        )],
         pictures: vec![plain, moving],
         table: Some(Table { columns: table_columns(&["V", "stable epsilon at h 1.8 dx in 2D"]), rows }),
     };
