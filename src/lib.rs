@@ -44,6 +44,7 @@ pub mod output;
 pub mod pair;
 pub mod particles;
 pub mod pass;
+pub mod registry;
 pub mod run;
 pub mod scene;
 pub mod shape;

@@ -6,7 +6,7 @@ use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
 use crate::study::tensile::{self, Part};
-use crate::study::{buckling, sweep};
+use crate::study::{atlas, buckling, stability, sweep};
 use clap::{Args, Subcommand, ValueEnum};
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -24,10 +24,47 @@ pub(super) enum Study {
     Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
+    /// Growth rates of plane waves on the scene's lattice, in theory and in runs; the longest steps of the integrators.
+    ///
+    /// The first body is taken for an infinite square lattice in its uniform state: `relative_volume` and
+    /// `deviatoric_stress` of an Eulerian body, `[study.stability]` of a Total Lagrangian one. Runs that a kill left out
+    /// are made up for by the same command.
+    Stability(StabilityArgs),
     /// The tensile instability: the repulsive force, bond viscosity and partitions of unity against chapter 5 of Strand 2010.
     ///
     /// Says for each of its figures whether it comes out; runs that are done are kept.
     Tensile(TensileArgs),
+    /// Run the atlas of known failures: the plain method fails, its remedy survives; write a table and a page.
+    ///
+    /// The same command goes on where a kill left it. Exit code 1 if a row does not behave as stated.
+    Atlas(AtlasArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StabilityArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// An axis of the matrix: `--vary formulation.smoothing_length=1.2,1.3,1.5`. May be given several times.
+    #[arg(long, value_name = "PATH=V1,V2")]
+    vary: Vec<String>,
+    /// Particles along each axis of the periodic box whose waves are looked at.
+    #[arg(long, default_value_t = 48)]
+    cells: usize,
+    /// Waves of each setting to run beside theory.
+    #[arg(long, value_name = "WAVES", default_value_t = 0)]
+    simulate: usize,
+    /// Also find the integrators' longest steps, from runs too.
+    #[arg(long)]
+    limits: bool,
+    /// The table of settings; out/study/SCENE[-VARIANT]-stability.csv unless given. The rest lies beside it.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Begin anew and overwrite the runs.
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -38,6 +75,19 @@ pub(super) struct TensileArgs {
     /// Folder of the page, tables and pictures.
     #[arg(long, default_value = "out/study/tensile")]
     out: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AtlasArgs {
+    /// Rows to run; all unless given.
+    #[arg(value_name = "ROW")]
+    rows: Vec<String>,
+    /// Folder of atlas.csv, atlas.html and atlas/ with the runs and their pictures.
+    #[arg(long, value_name = "FOLDER", default_value = "out/study")]
+    out: PathBuf,
+    /// Run rows anew that the table holds already.
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -118,7 +168,9 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Accuracy(args) => accuracy(args),
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
+        Study::Stability(args) => stable(args),
         Study::Tensile(args) => tensile(args),
+        Study::Atlas(args) => atlas_of_failures(args),
     }
 }
 
@@ -135,6 +187,13 @@ fn swept(args: &SweepArgs) -> Result<i32, Stop> {
     Ok(0)
 }
 
+fn atlas_of_failures(args: &AtlasArgs) -> Result<i32, Stop> {
+    let request = atlas::Request { rows: args.rows.clone(), out: args.out.clone(), force: args.force };
+    let (text, as_stated) = atlas::run(&request)?;
+    say(&format!("{text}\npage written to {}", args.out.join("atlas.html").display()));
+    Ok(i32::from(!as_stated))
+}
+
 fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let scene = Scene::open_flawless(&args.scene, args.variant.as_deref(), &args.set).map_err(Stop::Refused)?;
     let found = buckling::find(&scene).map_err(Stop::Failed)?;
@@ -142,6 +201,22 @@ fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let path = args.out.clone().unwrap_or_else(usual);
     buckling::write_mode(&scene, &found, &path).map_err(Stop::Failed)?;
     say(&format!("{}mode written to {}", found.text(), path.display()));
+    Ok(0)
+}
+
+fn stable(args: &StabilityArgs) -> Result<i32, Stop> {
+    let request = stability::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        vary: args.vary.clone(),
+        cells: args.cells,
+        simulate: args.simulate,
+        limits: args.limits,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    say(&stability::run(&request)?);
     Ok(0)
 }
 

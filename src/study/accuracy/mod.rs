@@ -10,7 +10,7 @@ pub(super) mod matrix;
 mod report;
 mod row;
 pub(super) mod source;
-mod table;
+pub(super) mod table;
 mod usual;
 
 #[cfg(test)]

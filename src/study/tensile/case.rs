@@ -3,7 +3,7 @@
 
 use super::windows::RANGE;
 use crate::smoothing::Smoothing;
-use crate::study::von_neumann::{ArtificialStress, Equations, Gradient, Lattice, Medium};
+use crate::study::von_neumann::{ArtificialStress, Equations, Gradient, Lattice, Medium, Waves as _};
 use std::f64::consts::PI;
 
 /// Growth rate in c/dx below which a wave counts as stable: the sums' rounding alone gives some 1e-7.

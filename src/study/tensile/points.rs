@@ -7,7 +7,7 @@ use crate::backend::Choice;
 use crate::output::csv;
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
-use crate::study::von_neumann::fixed_wave_vectors;
+use crate::study::von_neumann::{Waves as _, fixed_wave_vectors};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../scenes/tension_square.toml");

@@ -6,6 +6,7 @@ use super::findings::{Exhibit, Findings, Statement, table_columns};
 use super::published as strand;
 use super::windows::{RANGE, calmest, digits, shown, windows};
 use crate::study::chart::{Axis, Map, Picture, Table};
+use crate::study::von_neumann::Waves as _;
 use rayon::prelude::*;
 
 const SCAN: usize = 141;

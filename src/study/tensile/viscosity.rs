@@ -14,6 +14,7 @@ use crate::backend::Choice;
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
 use crate::study::chart::{Axis, Table};
+use crate::study::von_neumann::Waves as _;
 use std::f64::consts::PI;
 
 /// C_L, C_Q and softening of the stronger setting.

@@ -8,6 +8,7 @@ use super::particles::{Block, Row, Rule};
 use super::published as strand;
 use super::windows::digits;
 use crate::study::chart::{Axis, Table};
+use crate::study::von_neumann::Waves as _;
 use glam::DVec3;
 
 /// rho0 c^2 dx A in J for steel, dx 1 mm and a line of 1 cm^2: 7850 x 5000^2 x 1e-3 x 1e-4.

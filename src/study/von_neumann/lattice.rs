@@ -22,6 +22,8 @@ pub struct Lattice {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub offset: DVec3,
+    /// W.
+    pub value: f64,
     pub gradient: DVec3,
     pub hessian: DMat3,
     /// f^n, and the Hessian of the artificial stress's pair potential.
@@ -54,6 +56,7 @@ pub(super) fn pairs(lattice: &Lattice, artificial_stress: ArtificialStress) -> V
         });
         pairs.push(Pair {
             offset,
+            value: smoothing.value(r, h, dimension) * weight,
             gradient: normal * (-slope * weight),
             hessian: hessian * weight,
             repulsion,
