@@ -5,8 +5,9 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::{buckling, sweep};
+use crate::study::{buckling, cost, sweep};
 use clap::{Args, Subcommand, ValueEnum};
+use std::io::IsTerminal;
 use std::path::PathBuf;
 
 #[derive(Debug, Subcommand)]
@@ -22,6 +23,32 @@ pub(super) enum Study {
     Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
+    /// What scenes pay for: fields, passes, dispatches, shader text, bytes a particle and time a step, a row each.
+    ///
+    /// Each scene is also composed from its own laws, kernel, files, fields and passes alone, and the table tells
+    /// whether that gives the same fields, dispatches and WGSL, byte for byte.
+    Cost(CostArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CostArgs {
+    /// All of the folder `scenes` unless given.
+    scenes: Vec<PathBuf>,
+    #[arg(long)]
+    variant: Option<String>,
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    #[arg(long, value_enum, default_value = "cpu")]
+    backend: PlaceWord,
+    /// Time steps of scenes of more than 300,000 particles too.
+    #[arg(long)]
+    all: bool,
+    /// Print fields, dispatches and WGSL of the scenes instead.
+    #[arg(long, requires = "scenes")]
+    show: bool,
+    /// The CSV; out/study/cost.csv unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -102,7 +129,34 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Accuracy(args) => accuracy(args),
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
+        Study::Cost(args) => costs(args),
     }
+}
+
+fn costs(args: &CostArgs) -> Result<i32, Stop> {
+    if args.show {
+        for scene in &args.scenes {
+            say(&cost::show(scene, args.variant.as_deref(), &args.set)?);
+        }
+        return Ok(0);
+    }
+    let request = cost::Request {
+        scenes: args.scenes.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        choice: args.backend.choice(),
+        all: args.all,
+        out: args.out.clone(),
+    };
+    let visible = std::io::stderr().is_terminal();
+    let tell = |row: &cost::Row| {
+        if visible {
+            eprintln!("{}: {} particles", row.scene, row.particles);
+        }
+    };
+    let (text, holds) = cost::run(&request, tell)?;
+    say(&text);
+    Ok(i32::from(!holds))
 }
 
 fn swept(args: &SweepArgs) -> Result<i32, Stop> {

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod buckling;
 pub mod chart;
+pub mod cost;
 pub mod eigen;
 pub mod sweep;
 pub mod von_neumann;
