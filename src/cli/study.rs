@@ -5,7 +5,7 @@ use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::{buckling, cost, sweep};
+use crate::study::{ablate, buckling, cost, sweep};
 use clap::{Args, Subcommand, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -28,6 +28,43 @@ pub(super) enum Study {
     /// Each scene is also composed from its own laws, kernel, files, fields and passes alone, and the table tells
     /// whether that gives the same fields, dispatches and WGSL, byte for byte.
     Cost(CostArgs),
+    /// Take a scene apart: run it without each piece of physics and numerics, coarser, shorter, of a dimension or a body
+    /// less; tell what each changes and saves, and put together the smallest model within tolerance.
+    ///
+    /// A piece may go where all that the scene expects stays within its tolerances, or with --error within that fraction
+    /// of the truth. The same command goes on where a kill left it.
+    Ablate(AblateArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AblateArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    /// Overrides of the scene before it is taken apart.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Error allowed in place of the scene's tolerances: `1%` or `0.01`.
+    #[arg(long, value_parser = fraction)]
+    error: Option<f64>,
+    #[arg(long, value_enum, default_value = "cpu")]
+    backend: PlaceWord,
+    /// Runs of the scene and of each piece; the cheapest counts.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeats: u32,
+    /// The CSV; out/study/SCENE[-VARIANT]-ablate.csv unless given.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Begin anew and overwrite the CSV.
+    #[arg(long)]
+    force: bool,
+}
+
+/// A positive fraction, typed as such or in percent.
+fn fraction(text: &str) -> Result<f64, String> {
+    let (digits, scale) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
+    let number = digits.trim().parse::<f64>().map(|number| scale * number);
+    number.ok().filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| "must be like `1%` or `0.01`".into())
 }
 
 #[derive(Debug, Args)]
@@ -130,7 +167,32 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
         Study::Cost(args) => costs(args),
+        Study::Ablate(args) => ablated(args),
     }
+}
+
+fn ablated(args: &AblateArgs) -> Result<i32, Stop> {
+    let request = ablate::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        choice: args.backend.choice(),
+        error: args.error,
+        repeats: args.repeats,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    let study = ablate::Study::plan(&request).map_err(Stop::Refused)?;
+    say(&study.announcement());
+    let visible = std::io::stderr().is_terminal();
+    let tell = |line: &str| {
+        if visible {
+            eprintln!("{line}");
+        }
+    };
+    let found = study.run(tell)?;
+    say(&study.report(&found).map_err(Stop::Failed)?);
+    Ok(0)
 }
 
 fn costs(args: &CostArgs) -> Result<i32, Stop> {

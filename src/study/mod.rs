@@ -1,5 +1,6 @@
 //! Theory and sweeps that runs are compared with.
 
+pub mod ablate;
 pub mod accuracy;
 pub mod buckling;
 pub mod chart;
