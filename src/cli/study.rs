@@ -1,13 +1,17 @@
 //! `lithosph study`: its words.
 
+mod ablate;
+mod cost;
+
 use super::say;
 use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::{ablate, buckling, cost, sweep};
+use crate::study::tensile::{self, Part};
+use crate::study::{atlas, buckling, stability, sweep};
 use clap::{Args, Subcommand, ValueEnum};
-use std::io::IsTerminal;
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 #[derive(Debug, Subcommand)]
@@ -23,69 +27,81 @@ pub(super) enum Study {
     Sweep(SweepArgs),
     /// Load at which the flawless scene, followed through its load steps, buckles; and how it does.
     Buckling(BucklingArgs),
+    /// Growth rates of plane waves on the scene's lattice, in theory and in runs; the longest steps of the integrators.
+    ///
+    /// The first body is taken for an infinite square lattice in its uniform state: `relative_volume` and
+    /// `deviatoric_stress` of an Eulerian body, `[study.stability]` of a Total Lagrangian one. Runs that a kill left out
+    /// are made up for by the same command.
+    Stability(StabilityArgs),
+    /// The tensile instability: the repulsive force, bond viscosity and partitions of unity against chapter 5 of Strand 2010.
+    ///
+    /// Says for each of its figures whether it comes out; runs that are done are kept.
+    Tensile(TensileArgs),
+    /// Run the atlas of known failures: the plain method fails, its remedy survives; write a table and a page.
+    ///
+    /// The same command goes on where a kill left it. Exit code 1 if a row does not behave as stated.
+    Atlas(AtlasArgs),
     /// What scenes pay for: fields, passes, dispatches, shader text, bytes a particle and time a step, a row each.
     ///
     /// Each scene is also composed from its own laws, kernel, files, fields and passes alone, and the table tells
     /// whether that gives the same fields, dispatches and WGSL, byte for byte.
-    Cost(CostArgs),
+    Cost(cost::CostArgs),
     /// Take a scene apart: run it without each piece of physics and numerics, coarser, shorter, of a dimension or a body
     /// less; tell what each changes and saves, and put together the smallest model within tolerance.
     ///
     /// A piece may go where all that the scene expects stays within its tolerances, or with --error within that fraction
     /// of the truth. The same command goes on where a kill left it.
-    Ablate(AblateArgs),
+    Ablate(ablate::AblateArgs),
 }
 
 #[derive(Debug, Args)]
-pub(super) struct AblateArgs {
+pub(super) struct StabilityArgs {
     scene: PathBuf,
     #[arg(long)]
     variant: Option<String>,
-    /// Overrides of the scene before it is taken apart.
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Error allowed in place of the scene's tolerances: `1%` or `0.01`.
-    #[arg(long, value_parser = fraction)]
-    error: Option<f64>,
-    #[arg(long, value_enum, default_value = "cpu")]
-    backend: PlaceWord,
-    /// Runs of the scene and of each piece; the cheapest counts.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
-    repeats: u32,
-    /// The CSV; out/study/SCENE[-VARIANT]-ablate.csv unless given.
+    /// An axis of the matrix: `--vary formulation.smoothing_length=1.2,1.3,1.5`. May be given several times.
+    #[arg(long, value_name = "PATH=V1,V2")]
+    vary: Vec<String>,
+    /// Particles along each axis of the periodic box whose waves are looked at.
+    #[arg(long, default_value_t = 48)]
+    cells: usize,
+    /// Waves of each setting to run beside theory.
+    #[arg(long, value_name = "WAVES", default_value_t = 0)]
+    simulate: usize,
+    /// Also find the integrators' longest steps, from runs too.
+    #[arg(long)]
+    limits: bool,
+    /// The table of settings; out/study/SCENE[-VARIANT]-stability.csv unless given. The rest lies beside it.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Begin anew and overwrite the CSV.
+    /// Begin anew and overwrite the runs.
     #[arg(long)]
     force: bool,
 }
 
-/// A positive fraction, typed as such or in percent.
-fn fraction(text: &str) -> Result<f64, String> {
-    let (digits, scale) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
-    let number = digits.trim().parse::<f64>().map(|number| scale * number);
-    number.ok().filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| "must be like `1%` or `0.01`".into())
+#[derive(Debug, Args)]
+pub(super) struct TensileArgs {
+    /// Parts to do; all unless given.
+    #[arg(value_enum)]
+    parts: Vec<Part>,
+    /// Folder of the page, tables and pictures.
+    #[arg(long, default_value = "out/study/tensile")]
+    out: PathBuf,
 }
 
 #[derive(Debug, Args)]
-pub(super) struct CostArgs {
-    /// All of the folder `scenes` unless given.
-    scenes: Vec<PathBuf>,
+pub(super) struct AtlasArgs {
+    /// Rows to run; all unless given.
+    #[arg(value_name = "ROW")]
+    rows: Vec<String>,
+    /// Folder of atlas.csv, atlas.html and atlas/ with the runs and their pictures.
+    #[arg(long, value_name = "FOLDER", default_value = "out/study")]
+    out: PathBuf,
+    /// Run rows anew that the table holds already.
     #[arg(long)]
-    variant: Option<String>,
-    #[arg(long, value_name = "PATH=VALUE")]
-    set: Vec<String>,
-    #[arg(long, value_enum, default_value = "cpu")]
-    backend: PlaceWord,
-    /// Time steps of scenes of more than 300,000 particles too.
-    #[arg(long)]
-    all: bool,
-    /// Print fields, dispatches and WGSL of the scenes instead.
-    #[arg(long, requires = "scenes")]
-    show: bool,
-    /// The CSV; out/study/cost.csv unless given.
-    #[arg(long)]
-    out: Option<PathBuf>,
+    force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -166,59 +182,12 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Accuracy(args) => accuracy(args),
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
-        Study::Cost(args) => costs(args),
-        Study::Ablate(args) => ablated(args),
+        Study::Stability(args) => stable(args),
+        Study::Tensile(args) => tensile(args),
+        Study::Atlas(args) => atlas_of_failures(args),
+        Study::Cost(args) => cost::cost(args),
+        Study::Ablate(args) => ablate::ablate(args),
     }
-}
-
-fn ablated(args: &AblateArgs) -> Result<i32, Stop> {
-    let request = ablate::Request {
-        scene: args.scene.clone(),
-        variant: args.variant.clone(),
-        set: args.set.clone(),
-        choice: args.backend.choice(),
-        error: args.error,
-        repeats: args.repeats,
-        out: args.out.clone(),
-        force: args.force,
-    };
-    let study = ablate::Study::plan(&request).map_err(Stop::Refused)?;
-    say(&study.announcement());
-    let visible = std::io::stderr().is_terminal();
-    let tell = |line: &str| {
-        if visible {
-            eprintln!("{line}");
-        }
-    };
-    let found = study.run(tell)?;
-    say(&study.report(&found).map_err(Stop::Failed)?);
-    Ok(0)
-}
-
-fn costs(args: &CostArgs) -> Result<i32, Stop> {
-    if args.show {
-        for scene in &args.scenes {
-            say(&cost::show(scene, args.variant.as_deref(), &args.set)?);
-        }
-        return Ok(0);
-    }
-    let request = cost::Request {
-        scenes: args.scenes.clone(),
-        variant: args.variant.clone(),
-        set: args.set.clone(),
-        choice: args.backend.choice(),
-        all: args.all,
-        out: args.out.clone(),
-    };
-    let visible = std::io::stderr().is_terminal();
-    let tell = |row: &cost::Row| {
-        if visible {
-            eprintln!("{}: {} particles", row.scene, row.particles);
-        }
-    };
-    let (text, holds) = cost::run(&request, tell)?;
-    say(&text);
-    Ok(i32::from(!holds))
 }
 
 fn swept(args: &SweepArgs) -> Result<i32, Stop> {
@@ -234,6 +203,13 @@ fn swept(args: &SweepArgs) -> Result<i32, Stop> {
     Ok(0)
 }
 
+fn atlas_of_failures(args: &AtlasArgs) -> Result<i32, Stop> {
+    let request = atlas::Request { rows: args.rows.clone(), out: args.out.clone(), force: args.force };
+    let (text, as_stated) = atlas::run(&request)?;
+    say(&format!("{text}\npage written to {}", args.out.join("atlas.html").display()));
+    Ok(i32::from(!as_stated))
+}
+
 fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let scene = Scene::open_flawless(&args.scene, args.variant.as_deref(), &args.set).map_err(Stop::Refused)?;
     let found = buckling::find(&scene).map_err(Stop::Failed)?;
@@ -241,6 +217,32 @@ fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
     let path = args.out.clone().unwrap_or_else(usual);
     buckling::write_mode(&scene, &found, &path).map_err(Stop::Failed)?;
     say(&format!("{}mode written to {}", found.text(), path.display()));
+    Ok(0)
+}
+
+fn stable(args: &StabilityArgs) -> Result<i32, Stop> {
+    let request = stability::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        vary: args.vary.clone(),
+        cells: args.cells,
+        simulate: args.simulate,
+        limits: args.limits,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    say(&stability::run(&request)?);
+    Ok(0)
+}
+
+fn tensile(args: &TensileArgs) -> Result<i32, Stop> {
+    let request = tensile::Request { parts: args.parts.clone(), out: args.out.clone() };
+    say(&tensile::study(&request, &|what| {
+        if std::io::stderr().is_terminal() {
+            eprintln!("{what}");
+        }
+    })?);
     Ok(0)
 }
 

@@ -738,4 +738,18 @@ pub enum Statistic {
 pub struct Study {
     /// Override paths in quotes, and the values that each takes: `"time.cfl" = [0.2, 0.4]`.
     pub accuracy: Option<BTreeMap<String, Vec<toml::Value>>>,
+    /// Uniform state in which `study stability` finds a Total Lagrangian body.
+    pub stability: Option<Stability>,
+}
+
+/// A body of finite strain starts a run unstressed; its stability is asked for in a state of its own.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Stability {
+    /// Rows of the deformation gradient; the unit tensor unless given.
+    pub deformation: Option<Vec<Vec<f64>>>,
+    /// By how much bonds with a part along each axis are weakened, from 0, whole, to 1, cut.
+    pub damage: Option<Coordinates>,
+    /// The gradient correction stays that of whole bonds.
+    pub whole_correction: bool,
 }

@@ -65,6 +65,11 @@ pub fn expected(scene: &Scene, only: Option<&str>) -> Result<Vec<Expected>, Stri
     }
 }
 
+/// A hash that is the same on every machine and with every compiler.
+pub fn hash(bytes: &[u8]) -> u64 {
+    fnv(bytes, FNV_BASIS)
+}
+
 const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// Fowler, Noll and Vo's hash 1a: the same with every compiler, unlike the standard library's.
