@@ -1,5 +1,8 @@
 //! `lithosph study`: its words.
 
+mod ablate;
+mod cost;
+
 use super::say;
 use crate::backend::Choice;
 use crate::run::Stop;
@@ -38,6 +41,17 @@ pub(super) enum Study {
     ///
     /// The same command goes on where a kill left it. Exit code 1 if a row does not behave as stated.
     Atlas(AtlasArgs),
+    /// What scenes pay for: fields, passes, dispatches, shader text, bytes a particle and time a step, a row each.
+    ///
+    /// Each scene is also composed from its own laws, kernel, files, fields and passes alone, and the table tells
+    /// whether that gives the same fields, dispatches and WGSL, byte for byte.
+    Cost(cost::CostArgs),
+    /// Take a scene apart: run it without each piece of physics and numerics, coarser, shorter, of a dimension or a body
+    /// less; tell what each changes and saves, and put together the smallest model within tolerance.
+    ///
+    /// A piece may go where all that the scene expects stays within its tolerances, or with --error within that fraction
+    /// of the truth. The same command goes on where a kill left it.
+    Ablate(ablate::AblateArgs),
 }
 
 #[derive(Debug, Args)]
@@ -171,6 +185,8 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Stability(args) => stable(args),
         Study::Tensile(args) => tensile(args),
         Study::Atlas(args) => atlas_of_failures(args),
+        Study::Cost(args) => cost::cost(args),
+        Study::Ablate(args) => ablate::ablate(args),
     }
 }
 
