@@ -305,3 +305,42 @@ fn the_distance_from_a_reference_is_measured_in_four_ways() {
     let wanted = [0.2, 0.2 * square.sqrt() / largest, 0.2 * seen[seen.len() - 1].1 / largest, 0.0, 1.0 - 1.0 / 1.1];
     assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-6), "{found:?} {wanted:?}");
 }
+
+fn plate(sandbox: &Sandbox, more: &[&str]) -> Said {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/sheared_plate.toml");
+    sandbox.lithosph(&[&["study", "accuracy", scene, "--vary", "output.series=0.06"], more].concat())
+}
+
+#[test]
+fn the_total_lagrangian_needs_a_twentieth_of_the_eulerian_form() {
+    let sandbox = Sandbox::new("twentieth");
+    let (lagrangian, eulerian) = ("0.07692307692307693", "0.024390243902439025");
+    let spacings = format!("spacing={lagrangian},{eulerian}");
+    let vary = ["variant=coarse,eulerian_fine", "time.cfl=0.4", &spacings].map(|axis| ["--vary", axis]);
+    let said = plate(&sandbox, &[&vary.concat()[..], &["--out", "plate.csv"]].concat());
+    assert_eq!(said.code, Some(0), "{said:?}");
+    let text = std::fs::read_to_string(sandbox.path("plate.csv")).unwrap();
+    let rows = column(&text, &["variant", "spacing", "particle_updates", "max_corner", "error_total"]);
+    let numbers = |variant: &str, spacing: &str| {
+        let row = rows.iter().find(|row| row[0] == variant && row[1] == spacing).unwrap_or_else(|| panic!("{rows:?}"));
+        row[2..].iter().map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<f64>>()
+    };
+    let (lagrangian, eulerian) = (numbers("coarse", lagrangian), numbers("eulerian_fine", eulerian));
+    assert!((0.010..0.015).contains(&eulerian[1]), "{eulerian:?}");
+    assert!(lagrangian[1] < eulerian[1] && 20.0 * lagrangian[0] < eulerian[0], "{lagrangian:?} {eulerian:?}");
+    // Of 0.08: a thousandth, and 3.5 %.
+    assert!(lagrangian[2] < 8e-5 && eulerian[2] > 2e-3, "{lagrangian:?} {eulerian:?}");
+}
+
+#[test]
+fn leapfrog_and_pefrl_are_the_front_of_energy() {
+    let sandbox = Sandbox::new("integrators");
+    let vary = ["--vary", "time.integrator=leapfrog,pefrl,ssp_rk3,rk4", "--vary", "time.cfl=0.1,0.2,0.4,0.8"];
+    let said = plate(&sandbox, &[&vary[..], &["--observable", "total"]].concat());
+    assert_eq!(said.code, Some(0), "{said:?}");
+    let marked = said.out.lines().filter(|line| line.split_whitespace().next().is_some_and(|mark| mark.ends_with('+')));
+    let marked: Vec<&str> = marked.filter(|line| line.contains("cpu f64")).collect();
+    let holds = |word: &str| marked.iter().filter(|line| line.contains(word)).count();
+    assert_eq!(holds("leapfrog") + holds("pefrl"), marked.len(), "{said:?}");
+    assert!(holds("leapfrog") > 0 && holds("pefrl") > 0, "{said:?}");
+}
