@@ -26,7 +26,7 @@ use crate::backend::Choice;
 use crate::check;
 use crate::run::Stop;
 use crate::scene::Scene;
-use crate::study::accuracy::matrix::one_line;
+use crate::study::accuracy::axis::one_line;
 use crate::study::accuracy::row::{COST, Row};
 use crate::study::accuracy::source::Source;
 use crate::study::accuracy::table::{Header, Table};

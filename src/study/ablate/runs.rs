@@ -6,8 +6,8 @@ use super::{Study, WHOLE, whole};
 use crate::observable::Table as Series;
 use crate::run::{self, Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
-use crate::study::accuracy::matrix::one_line;
-use crate::study::accuracy::row::{self, OK, Row};
+use crate::study::accuracy::axis::one_line;
+use crate::study::accuracy::row::{self, Cost, OK, Row};
 use crate::study::accuracy::table::Table;
 use std::sync::atomic::Ordering;
 
@@ -34,7 +34,7 @@ impl Runs<'_> {
         let key = Self::key(word, piece, 1);
         let own = || self.table.rows.iter().filter(|row| row.subject() == &key[..3]);
         let ended = own().filter(|row| row.cost.is_some());
-        let seconds = |row: &&Row| row.cpu_seconds().unwrap_or(f64::INFINITY);
+        let seconds = |row: &&Row| row.cost_of(Cost::CpuSeconds).unwrap_or(f64::INFINITY);
         ended.min_by(|a, b| seconds(a).total_cmp(&seconds(b))).or_else(|| own().next()).cloned()
     }
 
@@ -110,7 +110,7 @@ impl Runs<'_> {
 
 /// A run that has ended, for a terminal.
 fn line(row: &Row) -> String {
-    let seconds = row.cpu_seconds().map_or_else(String::new, |seconds| format!(", {seconds:.2} s"));
+    let seconds = row.cost_of(Cost::CpuSeconds).map_or_else(String::new, |seconds| format!(", {seconds:.2} s"));
     format!("{} {}: {}{seconds}", row.key[0], row.key[1], row.status)
 }
 
