@@ -105,18 +105,18 @@ impl Named<'_> {
             let laws = laws(contact);
             for law in &laws {
                 let path = if laws.len() == 1 { format!("contact.{k}") } else { format!("contact.{k}.{law}") };
-                let rubs = frictions(contact).any(|(own, friction)| own == *law && friction > 0.0);
+                let rubs = *law == "gap" && frictions(contact).any(|(own, friction)| own == "gap" && friction > 0.0);
                 let mut overrides = if rubs { self.frictionless(without(&path)) } else { vec![without(&path)] };
                 if *law != "kernel" && self.energies() == 1 {
                     overrides.extend(self.without_fields(&[Field::ContactEnergy]));
                 }
                 list.push(piece(format!("contact of `{a}` and `{b}` by {law}"), overrides));
             }
-            for (law, friction) in frictions(contact) {
-                if friction > 0.0 {
-                    let name = format!("friction of `{a}` and `{b}`");
-                    list.push(piece(name, self.frictionless(format!("contact.{k}.{law}.friction=0"))));
-                }
+            for (law, _) in frictions(contact).filter(|(_, friction)| *friction > 0.0) {
+                let change = format!("contact.{k}.{law}.friction=0");
+                // Zones count no heat.
+                let overrides = if law == "gap" { self.frictionless(change) } else { vec![change] };
+                list.push(piece(format!("friction of `{a}` and `{b}`"), overrides));
             }
         }
         list
