@@ -189,7 +189,8 @@ impl Kicked {
 
     fn grows(&self, integrator: Integrator, step: f64) -> Result<bool, String> {
         let speeds = speeds_of(&self.scene(integrator, step)?)?;
-        Ok(speeds.is_none_or(|speeds| speeds.last().is_none_or(|last| !(*last <= GROWN * speeds[0]))))
+        let grown = |speeds: &[f64]| speeds.iter().any(|speed| !speed.is_finite()) || speeds.last() > Some(&(GROWN * speeds[0]));
+        Ok(speeds.is_none_or(|speeds| grown(&speeds)))
     }
 
     /// The measured limit over the computed one.

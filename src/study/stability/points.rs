@@ -158,9 +158,9 @@ mod tests {
 
     #[test]
     fn a_row_is_read_back() {
-        let read = row("\"[0.8, 1]\",3.14,0,0,0.1,0,0.101,0,0.01", 1).unwrap();
+        let read = row("\"[0.8, 1]\",3.25,0,0,0.1,0,0.101,0,0.01", 1).unwrap();
         assert_eq!(read.setting, ["[0.8, 1]"]);
-        assert_eq!((read.run.wave[0], read.run.theory.rate, read.run.rate, read.run.difference), (3.14, 0.1, 0.101, 0.01));
+        assert_eq!((read.run.wave[0], read.run.theory.rate, read.run.rate, read.run.difference), (3.25, 0.1, 0.101, 0.01));
         assert!(row("a,1,2", 1).is_none());
     }
 }

@@ -59,7 +59,7 @@ pub fn run(request: &Request) -> Result<String, Stop> {
     if request.cells < 4 {
         return Err(Stop::Refused("--cells must be 4 or more".into()));
     }
-    let (paths, values) = matrix(request, &source, &open).map_err(Stop::Refused)?;
+    let (paths, values) = matrix(request, &source, open).map_err(Stop::Refused)?;
     let resolved = |values: &Values| Setting::new(&open(&values.overrides)?);
     let settings: Vec<Setting> = values.iter().map(resolved).collect::<Result<_, _>>().map_err(Stop::Refused)?;
     let out = request.out.clone().unwrap_or_else(|| format!("out/study/{}-stability.csv", scene.label()).into());

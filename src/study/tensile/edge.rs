@@ -76,7 +76,7 @@ pub fn linear() -> Findings {
     );
     let gradients = chart(
         "Estimates of its slope",
-        "The plain sum falls to -9 at the right end, where f is not small.",
+        &format!("The plain sum falls to {} at the right end, where f is not small.", digits(found[COUNT - 1].gradient)),
         Axis::linear("x, dx"),
         Axis::linear("estimate of df/dx").within([-0.5, 1.5]),
         vec![

@@ -34,7 +34,7 @@ pub struct Exhibit {
 }
 
 impl Exhibit {
-    /// Writes `stem.csv`, and `stem.svg` and `stem.png` of its pictures side by side.
+    /// Writes `stem.csv`, and `stem.svg` and `stem.png` of its pictures, three side by side (further ones as `stem-2.svg`).
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -42,11 +42,11 @@ impl Exhibit {
         if let Some(table) = &self.table {
             write_csv(table, &folder.join(format!("{}.csv", self.stem)))?;
         }
-        match &self.pictures[..] {
-            [] => Ok(()),
-            [one] => one.write(&folder.join(&self.stem)),
-            several => Picture::Row(several.to_vec()).write(&folder.join(&self.stem)),
+        for (k, row) in self.pictures.chunks(3).enumerate() {
+            let stem = if k == 0 { self.stem.clone() } else { format!("{}-{}", self.stem, k + 1) };
+            Picture::Row(row.to_vec()).write(&folder.join(stem))?;
         }
+        Ok(())
     }
 
     pub fn section(self) -> Section {

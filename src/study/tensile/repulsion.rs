@@ -73,7 +73,7 @@ pub fn epsilon() -> Findings {
     let grown = |case: Case| -> Vec<[f64; 2]> { scan.par_iter().map(|&e| [e, case.epsilon(e).growth()]).collect() };
     let axes = || (Axis::log("epsilon"), Axis::log("largest growth rate, c/dx").within([1e-3, 1e3]));
     let mut pictures = Vec::new();
-    for (dimension, name) in [(1, "line"), (2, "plane"), (3, "space")] {
+    for dimension in 1..=3 {
         let case = Case::new(dimension, 1.3);
         let plain = case.growth();
         let mut series = vec![
@@ -92,8 +92,8 @@ pub fn epsilon() -> Findings {
             _ => {}
         }
         let (x, y) = axes();
-        let note = "A curve at the lower end is stable.";
-        pictures.push(chart(&format!("Repulsive force on a {name}: h 1.3 dx, V 1.01, n 4"), note, x, y, series));
+        let note = "n 4. A curve at the lower end is stable.";
+        pictures.push(chart(&format!("Repulsive force in {dimension}D: h 1.3 dx, V 1.01"), note, x, y, series));
     }
     findings.exhibits.push(Exhibit {
         stem: "epsilon".into(),
@@ -101,7 +101,7 @@ pub fn epsilon() -> Findings {
         text: vec![
             "Largest growth rate of any wave on an infinite lattice of fluid. On a line a window of epsilon stops all \
              growth. It ends because the repulsive force follows the pressure: it takes from the stiffness in bulk what \
-             it adds to the stiffness of the lattice, and waves collapse in bulk from about epsilon 1 on."
+             it adds to the stiffness of the lattice, and beyond the window waves collapse in bulk."
                 .into(),
         ],
         pictures,

@@ -172,7 +172,7 @@ fn statements_about_everything_else_come_out_as_they_did() {
     verdicts(&criteria::estimates(), "+-++-");
     verdicts(&criteria::criteria().statements, "+++- +++- +");
     verdicts(&edge::linear().statements, "++-+");
-    verdicts(&work::work().statements, "++-+");
+    verdicts(&work::work().statements, "++-");
     verdicts(&viscosity::line_statements(), "++");
 }
 

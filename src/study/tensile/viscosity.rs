@@ -1,9 +1,8 @@
 //! Bond viscosity: whether it changes the epsilon that is needed, and what it does to two rods that collide; 5.1.3.5.
 //!
 //! Johnson's viscosity acts on approach. In a sawtooth of velocities every pair at an odd distance approaches on one
-//! side of a particle and parts on the other, so that half of the pairs damp it: gamma = C_L c h sum (1 - cos kn) n
-//! |W'(n)|/(n^2 + e h^2) over n > 0, and s^2 + gamma s = lambda: s > 0 exactly where lambda > 0. For longer waves that is
-//! an estimate, which is good near the sawtooth.
+//! side of a particle and parts on the other, so that exactly half of a viscosity of all pairs acts, gamma, and
+//! s^2 + gamma s = lambda: s > 0 exactly where lambda > 0. For longer waves that is an estimate, good near the sawtooth.
 
 use super::case::Case;
 use super::draw::{chart, curve, dots};
@@ -14,7 +13,8 @@ use crate::backend::Choice;
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
 use crate::study::chart::{Axis, Table};
-use crate::study::von_neumann::Waves as _;
+use crate::study::von_neumann::{Damage, Viscous, Waves as _};
+use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
 /// C_L, C_Q and softening of the stronger setting.
@@ -23,10 +23,7 @@ const WEAK: [f64; 3] = [0.1, 0.2, 0.01];
 
 /// gamma of a wave, in c/dx.
 fn damping(case: Case, [linear, _, softening]: [f64; 3], k: f64) -> f64 {
-    let (lattice, h) = (case.lattice(), case.ratio);
-    let near = (1..).map(f64::from).take_while(|n| *n < 2.0 * h);
-    let of = |n: f64| (1.0 - (k * n).cos()) * n * lattice.smoothing.derivative(n, h, 1).abs() / (n * n + softening * h * h);
-    linear * h * near.map(of).sum::<f64>()
+    Viscous::new(&case.lattice(), DMat3::IDENTITY, &Damage::default(), linear, softening).rate([k, 0.0, 0.0], DVec3::X)
 }
 
 /// Growth rate of a wave on a line with a bond viscosity, in c/dx; 0 where it is stable.
