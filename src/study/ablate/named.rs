@@ -105,17 +105,18 @@ impl Named<'_> {
             let laws = laws(contact);
             for law in &laws {
                 let path = if laws.len() == 1 { format!("contact.{k}") } else { format!("contact.{k}.{law}") };
-                let mut overrides = vec![without(&path)];
+                let rubs = *law == "gap" && frictions(contact).any(|(own, friction)| own == "gap" && friction > 0.0);
+                let mut overrides = if rubs { self.frictionless(without(&path)) } else { vec![without(&path)] };
                 if *law != "kernel" && self.energies() == 1 {
                     overrides.extend(self.without_fields(&[Field::ContactEnergy]));
                 }
                 list.push(piece(format!("contact of `{a}` and `{b}` by {law}"), overrides));
             }
-            for (law, friction) in frictions(contact) {
-                if friction > 0.0 {
-                    let name = format!("friction of `{a}` and `{b}`");
-                    list.push(piece(name, self.frictionless(format!("contact.{k}.{law}.friction=0"))));
-                }
+            for (law, _) in frictions(contact).filter(|(_, friction)| *friction > 0.0) {
+                let change = format!("contact.{k}.{law}.friction=0");
+                // Zones count no heat.
+                let overrides = if law == "gap" { self.frictionless(change) } else { vec![change] };
+                list.push(piece(format!("friction of `{a}` and `{b}`"), overrides));
             }
         }
         list
@@ -126,6 +127,7 @@ impl Named<'_> {
         self.file.contact.iter().map(stores).sum::<usize>() + self.file.obstacle.len()
     }
 
+    /// A change that ends one friction, and the sum of heat where nothing else makes any.
     fn frictionless(&self, change: String) -> Vec<String> {
         let of_contacts = self.file.contact.iter().flat_map(frictions).filter(|(law, friction)| *law == "gap" && *friction > 0.0);
         let rubbing = of_contacts.count() + self.file.obstacle.iter().filter(|obstacle| obstacle.friction > 0.0).count();
@@ -142,10 +144,14 @@ impl Named<'_> {
         let mut list = Vec::new();
         for obstacle in &self.file.obstacle {
             let (name, path) = (&obstacle.name, format!("obstacle.{}", obstacle.name));
-            let mut overrides = vec![without(&path)];
+            let rubs = obstacle.friction > 0.0;
+            let mut overrides = if rubs { self.frictionless(without(&path)) } else { vec![without(&path)] };
             overrides.extend(without_observables(self.file, |typed| typed.obstacle.as_ref() == Some(name)));
+            if self.energies() == 1 {
+                overrides.extend(self.without_fields(&[Field::ContactEnergy]));
+            }
             list.push(piece(format!("obstacle `{name}`"), overrides));
-            if obstacle.friction > 0.0 {
+            if rubs {
                 list.push(piece(format!("friction of obstacle `{name}`"), self.frictionless(format!("{path}.friction=0"))));
             }
         }

@@ -29,6 +29,7 @@ pub struct Piece {
 
 impl Piece {
     pub fn new(name: impl Into<String>, sort: Sort, overrides: Vec<String>) -> Self {
+        let overrides = joined(overrides.iter()).unwrap_or(overrides);
         Self { name: name.into(), sort, overrides, refused: None, ends: None, width: None }
     }
 
@@ -109,6 +110,14 @@ mod tests {
         let c = piece(&["contact.0.kernel=0", "expect.e=none", "spacing=2"]);
         let all = Piece::joined(&[&a, &b, &c]).unwrap();
         assert_eq!(all.overrides, ["contact.2.gap.friction=0", "spacing=2", "contact.1=none", "contact.0=none", "expect.e=none"]);
+    }
+
+    #[test]
+    fn elements_of_a_list_go_from_the_last_to_the_first() {
+        assert_eq!(
+            piece(&["contact.0=none", "body.b=none", "contact.2=none"]).overrides,
+            ["contact.2=none", "contact.0=none", "body.b=none"]
+        );
     }
 
     #[test]

@@ -103,7 +103,8 @@ fn moved_anchor(file: &File, body: &Body, factor: f64) -> Option<Vec<f64>> {
         steps - (steps + PLACE).floor()
     };
     let moved = |axis: usize| tidy(corner[axis] + offset(axis) * spacing * factor, spacing);
-    Some((0..file.dimension).map(moved).collect())
+    let moved: Vec<f64> = (0..file.dimension).map(moved).collect();
+    (moved != anchor[..file.dimension]).then_some(moved)
 }
 
 /// Without the last digits, which rounding has made.

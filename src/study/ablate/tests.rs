@@ -204,3 +204,36 @@ fn a_fraction_takes_the_place_of_the_tolerances() {
     let refusal = Study::plan(&folder.request()).err().unwrap();
     assert!(refusal.contains("s expects nothing") && refusal.contains("--error 1%"), "{refusal}");
 }
+
+/// Scenes with fewer particles are looked at.
+const FEW: usize = 5000;
+
+/// What a scene names can be taken away: with it goes what observes it.
+#[test]
+fn every_scene_can_be_without_each_piece_that_it_names() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let small = |variant: Option<&str>| Scene::open(&path, variant, &[]).is_ok_and(|scene| scene.particles.len() <= FEW);
+        if path.extension().is_none_or(|extension| extension != "toml") || !small(None) {
+            continue;
+        }
+        for variant in crate::scene::read::variants(&path).unwrap().into_iter().map(Some).chain([None]) {
+            if small(variant.as_deref()) {
+                seen += opened_without_each(&Source::new(path.clone(), variant).unwrap());
+            }
+        }
+    }
+    assert!(seen > 100, "{seen}");
+}
+
+fn opened_without_each(source: &Source) -> usize {
+    let scene = source.open(&[]).unwrap();
+    let pieces = named::pieces(&scene, &source.read().unwrap().file);
+    for piece in &pieces {
+        let opened = source.open(&piece.overrides);
+        assert!(opened.is_ok(), "{} without {}: {}", scene.label(), piece.name, opened.err().unwrap());
+    }
+    pieces.len()
+}
