@@ -166,7 +166,7 @@ fn st_venant_kirchhoff_fails_in_compression_and_neo_hookean_does_not() {
         let setting = setting(&[&law, &state]);
         growth(&setting, 24).mode.rate / setting.unit_rate()
     };
-    assert!(fastest("st_venant_kirchhoff", 0.8) > 0.09);
+    assert!(fastest("st_venant_kirchhoff", 0.8) > 0.08);
     assert!(fastest("st_venant_kirchhoff", 0.835) > 0.01);
     assert_eq!(fastest("st_venant_kirchhoff", 0.855), 0.0);
     for stretch in [0.6, 0.8, 1.0, 1.5, 2.0] {
