@@ -174,3 +174,38 @@ fn an_interrupt_leaves_a_file_to_go_on_from() {
     assert!(said.err.contains("interrupted with 1 of 2 runs in out/study/bar-accuracy.csv"), "{said:?}");
     assert_eq!(column(&text(&sandbox), &["duration", "status"]), [["0.5", "ok"]]);
 }
+
+#[test]
+fn a_scene_is_taken_apart() {
+    let sandbox = bar("ablate");
+    let ablate = |more: &[&str]| sandbox.lithosph(&[&["study", "ablate", "bar.toml"], more].concat());
+    let said = ablate(&["--error", "0"]);
+    assert!(said.code == Some(2) && said.err.contains("must be like `1%` or `0.01`") && !sandbox.exists("out"), "{said:?}");
+    let said = ablate(&["--error", "5%"]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
+    assert!(said.out.contains("lithosph run bar.toml --set ") && said.out.contains("Smallest model of bar"), "{said:?}");
+    let file = "out/study/bar-ablate.csv";
+    let first = std::fs::read_to_string(sandbox.path(file)).unwrap();
+    assert!(first.lines().nth(1).unwrap().starts_with("run,without,overrides,repeat,particles,"), "{first}");
+    assert_eq!(ablate(&["--error", "5%"]).out, said.out);
+    assert_eq!(std::fs::read_to_string(sandbox.path(file)).unwrap(), first);
+    let said = ablate(&["--set", "time.cfl=0.2"]);
+    assert!(said.code == Some(2) && said.err.contains("study of another scene"), "{said:?}");
+}
+
+#[test]
+fn a_scene_tells_what_it_pays_for() {
+    let sandbox = bar("cost");
+    let said = sandbox.lithosph(&["study", "cost", "bar.toml"]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
+    assert!(said.out.contains("Composed from its own parts alone, each scene has the same fields"), "{said:?}");
+    let text = std::fs::read_to_string(sandbox.path("out/study/cost.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let cell = |name: &str| rows[1][rows[0].iter().position(|title| *title == name).unwrap()];
+    assert_eq!((cell("scene"), cell("particles"), cell("own_parts_suffice")), ("bar", "20", "true"));
+    assert!(cell("cpu_seconds_per_step").parse::<f64>().unwrap() > 0.0 && !cell("field_names").contains("smoothed_velocity"));
+    let more = sandbox.lithosph(&["study", "cost", "bar.toml", "--set", "formulation.xsph=0.5", "--show"]);
+    assert!(more.out.contains("smoothed_velocity: 1 x Particle") && more.out.contains("// smooth_velocity"), "{more:?}");
+    let nowhere = sandbox.lithosph(&["study", "cost"]);
+    assert!(nowhere.code == Some(2) && nowhere.err.contains("name scenes"), "{nowhere:?}");
+}

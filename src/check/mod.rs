@@ -105,7 +105,10 @@ fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &E
 }
 
 /// One number of an observable: a result, or a statistic of its series.
-fn number(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
+///
+/// # Errors
+/// One sentence where the run gave none.
+pub fn number(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
     let typed = &scene.file.observe[name];
     let kind = KINDS.iter().find(|k| k.word == typed.kind).ok_or("unknown kind")?;
     if let Value::Result(of) = kind.value {

@@ -1,12 +1,17 @@
 //! `lithosph study`: its words.
 
+mod ablate;
+mod cost;
+
 use super::say;
 use crate::backend::Choice;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::accuracy::{self, Request};
-use crate::study::{buckling, stability, sweep};
+use crate::study::tensile::{self, Part};
+use crate::study::{atlas, buckling, stability, sweep};
 use clap::{Args, Subcommand, ValueEnum};
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 #[derive(Debug, Subcommand)]
@@ -28,6 +33,25 @@ pub(super) enum Study {
     /// `deviatoric_stress` of an Eulerian body, `[study.stability]` of a Total Lagrangian one. Runs that a kill left out
     /// are made up for by the same command.
     Stability(StabilityArgs),
+    /// The tensile instability: the repulsive force, bond viscosity and partitions of unity against chapter 5 of Strand 2010.
+    ///
+    /// Says for each of its figures whether it comes out; runs that are done are kept.
+    Tensile(TensileArgs),
+    /// Run the atlas of known failures: the plain method fails, its remedy survives; write a table and a page.
+    ///
+    /// The same command goes on where a kill left it. Exit code 1 if a row does not behave as stated.
+    Atlas(AtlasArgs),
+    /// What scenes pay for: fields, passes, dispatches, shader text, bytes a particle and time a step, a row each.
+    ///
+    /// Each scene is also composed from its own laws, kernel, files, fields and passes alone, and the table tells
+    /// whether that gives the same fields, dispatches and WGSL, byte for byte.
+    Cost(cost::CostArgs),
+    /// Take a scene apart: run it without each piece of physics and numerics, coarser, shorter, of a dimension or a body
+    /// less; tell what each changes and saves, and put together the smallest model within tolerance.
+    ///
+    /// A piece may go where all that the scene expects stays within its tolerances, or with --error within that fraction
+    /// of the truth. The same command goes on where a kill left it.
+    Ablate(ablate::AblateArgs),
 }
 
 #[derive(Debug, Args)]
@@ -53,6 +77,29 @@ pub(super) struct StabilityArgs {
     #[arg(long)]
     out: Option<PathBuf>,
     /// Begin anew and overwrite the runs.
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TensileArgs {
+    /// Parts to do; all unless given.
+    #[arg(value_enum)]
+    parts: Vec<Part>,
+    /// Folder of the page, tables and pictures.
+    #[arg(long, default_value = "out/study/tensile")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AtlasArgs {
+    /// Rows to run; all unless given.
+    #[arg(value_name = "ROW")]
+    rows: Vec<String>,
+    /// Folder of atlas.csv, atlas.html and atlas/ with the runs and their pictures.
+    #[arg(long, value_name = "FOLDER", default_value = "out/study")]
+    out: PathBuf,
+    /// Run rows anew that the table holds already.
     #[arg(long)]
     force: bool,
 }
@@ -136,6 +183,10 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Sweep(args) => swept(args),
         Study::Buckling(args) => buckling(args),
         Study::Stability(args) => stable(args),
+        Study::Tensile(args) => tensile(args),
+        Study::Atlas(args) => atlas_of_failures(args),
+        Study::Cost(args) => cost::cost(args),
+        Study::Ablate(args) => ablate::ablate(args),
     }
 }
 
@@ -150,6 +201,13 @@ fn swept(args: &SweepArgs) -> Result<i32, Stop> {
     let text = sweep::run(&request, |row| eprintln!("{row}"))?;
     say(&text);
     Ok(0)
+}
+
+fn atlas_of_failures(args: &AtlasArgs) -> Result<i32, Stop> {
+    let request = atlas::Request { rows: args.rows.clone(), out: args.out.clone(), force: args.force };
+    let (text, as_stated) = atlas::run(&request)?;
+    say(&format!("{text}\npage written to {}", args.out.join("atlas.html").display()));
+    Ok(i32::from(!as_stated))
 }
 
 fn buckling(args: &BucklingArgs) -> Result<i32, Stop> {
@@ -175,6 +233,16 @@ fn stable(args: &StabilityArgs) -> Result<i32, Stop> {
         force: args.force,
     };
     say(&stability::run(&request)?);
+    Ok(0)
+}
+
+fn tensile(args: &TensileArgs) -> Result<i32, Stop> {
+    let request = tensile::Request { parts: args.parts.clone(), out: args.out.clone() };
+    say(&tensile::study(&request, &|what| {
+        if std::io::stderr().is_terminal() {
+            eprintln!("{what}");
+        }
+    })?);
     Ok(0)
 }
 

@@ -63,6 +63,11 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
     }
     // Before the folder is made: a backend that cannot be had leaves no trace.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
+    run_on(scene, options, backend)
+}
+
+/// The same on a backend that is open and at the scene's start.
+pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }

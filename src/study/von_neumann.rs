@@ -22,6 +22,7 @@ mod viscous;
 mod waves;
 
 pub use lagrangian::{Damage, Elastic, Lagrangian};
+pub(in crate::study) use lattice::second_derivative;
 pub use lattice::{Lattice, fixed_wave_vectors, periodic_wave_vectors};
 pub use viscous::Viscous;
 pub use waves::{Mode, Waves, by_growth};
@@ -97,6 +98,13 @@ pub enum ArtificialStress {
         exponent: f64,
         spacing: f64,
     },
+    /// R_a = epsilon P_a/rho_a^2 times the unit tensor whatever the sign of P_a: repels in tension and attracts in
+    /// compression; with a negative epsilon the other way round.
+    Signed {
+        epsilon: f64,
+        exponent: f64,
+        spacing: f64,
+    },
 }
 
 impl ArtificialStress {
@@ -104,7 +112,9 @@ impl ArtificialStress {
     fn shape(self) -> Option<(f64, f64)> {
         match self {
             Self::None => None,
-            Self::Scalar { exponent, spacing, .. } | Self::Principal { exponent, spacing, .. } => Some((exponent, spacing)),
+            Self::Scalar { exponent, spacing, .. }
+            | Self::Principal { exponent, spacing, .. }
+            | Self::Signed { exponent, spacing, .. } => Some((exponent, spacing)),
         }
     }
 }
@@ -237,10 +247,8 @@ impl Equations {
     fn repulsion(&self, stress_rate: DMat3, dilation: f64) -> (DMat3, DMat3) {
         let medium = &self.medium;
         match self.artificial_stress {
-            ArtificialStress::Scalar { epsilon, .. } if medium.pressure() < 0.0 => {
-                let pressure_rate = -medium.bulk_modulus * medium.density / medium.reference_density * dilation;
-                (DMat3::IDENTITY * (epsilon * medium.pressure()), DMat3::IDENTITY * (epsilon * pressure_rate))
-            }
+            ArtificialStress::Scalar { epsilon, .. } if medium.pressure() < 0.0 => self.share_of_pressure(epsilon, dilation),
+            ArtificialStress::Signed { epsilon, .. } => self.share_of_pressure(epsilon, dilation),
             ArtificialStress::Principal { epsilon, .. } => {
                 let (values, axes) = self.principal;
                 let tensile = DMat3::from_diagonal(values.max(DVec3::ZERO));
@@ -256,6 +264,12 @@ impl Equations {
             }
             _ => (DMat3::ZERO, DMat3::ZERO),
         }
+    }
+    /// epsilon P and its rate.
+    fn share_of_pressure(&self, epsilon: f64, dilation: f64) -> (DMat3, DMat3) {
+        let medium = &self.medium;
+        let rate = -medium.bulk_modulus * medium.density / medium.reference_density * dilation;
+        (DMat3::IDENTITY * (epsilon * medium.pressure()), DMat3::IDENTITY * (epsilon * rate))
     }
 }
 

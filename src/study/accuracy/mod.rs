@@ -7,8 +7,8 @@
 
 mod front;
 pub(super) mod matrix;
-mod report;
-mod row;
+pub(super) mod report;
+pub(super) mod row;
 pub(super) mod source;
 pub(super) mod table;
 mod usual;
@@ -25,6 +25,7 @@ use matrix::{Matrix, Setting, one_line};
 use report::Progress;
 use row::{OK, Row};
 use source::{Source, expected};
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use table::{Header, Table};
@@ -78,7 +79,7 @@ impl Study {
             device::choose(device::Want::Gpu, None)?;
         }
         let columns = row::columns(&matrix.paths, expected.iter().map(|expected| expected.name.as_str()));
-        let header = Header { stamp: source.stamp(&scene)?, columns, errors: expected.len() };
+        let header = Header { stamp: source.stamp("accuracy", &scene)?, columns, errors: expected.len() };
         let (label, jobs) = (scene.label(), jobs(&matrix.settings, &request.backends, request.repeats));
         let file = request.out.clone().unwrap_or_else(|| format!("out/study/{label}-accuracy.csv").into());
         Ok(Self { source, matrix, expected, header, jobs, label, file, force: request.force })
@@ -100,7 +101,8 @@ impl Study {
     /// # Errors
     /// The file is of another study or cannot be written, or the user stops the study. A run that fails is a row.
     pub fn run(&self) -> Result<String, Stop> {
-        let wanted = self.jobs.iter().map(|job| job.key.clone()).collect();
+        let keys: HashSet<&Vec<String>> = self.jobs.iter().map(|job| &job.key).collect();
+        let wanted = |row: &Row| keys.contains(&row.key);
         let mut table = Table::open(&self.file, &self.header, &wanted, self.force).map_err(Stop::Refused)?;
         let mut progress = Progress::new(self.jobs.len(), table.rows.len());
         for job in &self.jobs {

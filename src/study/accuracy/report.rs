@@ -67,7 +67,7 @@ fn cells(best: &Best, expected: usize) -> Vec<String> {
 }
 
 /// Columns side by side, words to the left, and to the right what comes after them.
-fn aligned(lines: &[Vec<String>], words: usize) -> String {
+pub fn aligned(lines: &[Vec<String>], words: usize) -> String {
     let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..lines[0].len()).map(width).collect();
     let cell = |(k, cell): (usize, &String)| match k < words {

@@ -21,7 +21,12 @@ impl Source {
 
     /// As typed, with its lines.
     pub fn read(&self) -> Result<Read, String> {
-        read::read_text(&self.text, &self.path.display().to_string(), self.variant.as_deref(), &[])
+        self.read_with(&[])
+    }
+
+    /// The same with overrides.
+    pub fn read_with(&self, overrides: &[String]) -> Result<Read, String> {
+        read::read_text(&self.text, &self.path.display().to_string(), self.variant.as_deref(), overrides)
     }
 
     pub fn open(&self, overrides: &[String]) -> Result<Scene, String> {
@@ -32,14 +37,14 @@ impl Source {
         self.path.parent().unwrap_or(Path::new("."))
     }
 
-    /// Version, scene, and a hash of the scene's text and its references: what has another stamp does not compare.
-    pub fn stamp(&self, scene: &Scene) -> Result<String, String> {
+    /// Version, study, scene, and a hash of the scene's text and its references: what has another stamp does not compare.
+    pub fn stamp(&self, study: &str, scene: &Scene) -> Result<String, String> {
         let mut hash = fnv(self.text.as_bytes(), FNV_BASIS);
         for reference in scene.file.expect.values().filter_map(|expect| expect.reference.as_ref()) {
             hash = fnv(read::text_of(&self.folder().join(reference))?.as_bytes(), hash);
         }
         let (version, label) = (env!("CARGO_PKG_VERSION"), scene.label());
-        Ok(format!("{version} study accuracy: {label}, scene and references {hash:016x}"))
+        Ok(format!("{version} study {study}: {label}, scene and references {hash:016x}"))
     }
 }
 
@@ -58,6 +63,11 @@ pub fn expected(scene: &Scene, only: Option<&str>) -> Result<Vec<Expected>, Stri
         Some(name) if names.contains(&name) => Ok(all.into_iter().filter(|expected| expected.name == name).collect()),
         Some(name) => Err(format!("--observable {name}: no expectation with a value or a reference{}", hint(name, &names))),
     }
+}
+
+/// A hash that is the same on every machine and with every compiler.
+pub fn hash(bytes: &[u8]) -> u64 {
+    fnv(bytes, FNV_BASIS)
 }
 
 const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;

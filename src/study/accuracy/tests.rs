@@ -143,7 +143,8 @@ fn a_table_goes_on_where_a_kill_left_it() {
     let path = std::env::temp_dir().join(format!("lithosph-study-{}.csv", std::process::id()));
     let rows = [row(&["1.2"], 1, 1.0, &[0.5]), row(&["1.3"], 1, 2.0, &[0.25])];
     let wanted: HashSet<_> = rows.iter().map(|row| row.key.clone()).collect();
-    let open = |stamp: &str, wanted: &HashSet<_>, force| Table::open(&path, &header(stamp), wanted, force);
+    let open =
+        |stamp: &str, wanted: &HashSet<_>, force| Table::open(&path, &header(stamp), &|row| wanted.contains(&row.key), force);
     let mut table = open("one", &wanted, true).unwrap();
     for row in &rows {
         table.append(row.clone()).unwrap();

@@ -108,7 +108,7 @@ fn runs(
     if request.simulate == 0 {
         return Ok(None);
     }
-    let stamp = source.stamp(scene).map_err(Stop::Refused)?.replace("study accuracy", "study stability");
+    let stamp = source.stamp("stability", scene).map_err(Stop::Refused)?;
     let stamp = format!("{stamp}; {} cells; {}", request.cells, request.set.join(" "));
     Runs::open(&beside(out, "-runs.csv"), stamp.trim_end(), paths, request.force).map(Some).map_err(Stop::Refused)
 }

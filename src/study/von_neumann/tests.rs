@@ -2,10 +2,11 @@ use super::*;
 use crate::smoothing::Smoothing;
 use std::f64::consts::PI;
 
-const ARTIFICIAL: [ArtificialStress; 3] = [
+const ARTIFICIAL: [ArtificialStress; 4] = [
     ArtificialStress::None,
     ArtificialStress::Scalar { epsilon: 0.4, exponent: 4.0, spacing: 1.07 },
     ArtificialStress::Principal { epsilon: 0.3, exponent: 2.5, spacing: 0.98 },
+    ArtificialStress::Signed { epsilon: -0.2, exponent: 3.0, spacing: 1.2 },
 ];
 const GRADIENTS: [Gradient; 3] = [Gradient::Plain, Gradient::Corrected, Gradient::Adjoint];
 
@@ -103,6 +104,10 @@ impl Periodic<'_> {
             ArtificialStress::Scalar { epsilon, .. } => {
                 let pressure = medium.bulk_modulus * (state.density[a] / medium.reference_density - 1.0);
                 DMat3::IDENTITY * if pressure < 0.0 { -epsilon * pressure.abs() / square } else { 0.0 }
+            }
+            ArtificialStress::Signed { epsilon, .. } => {
+                let pressure = medium.bulk_modulus * (state.density[a] / medium.reference_density - 1.0);
+                DMat3::IDENTITY * (epsilon * pressure / square)
             }
             ArtificialStress::Principal { epsilon, .. } => {
                 let (values, axes) = principal(state.stress[a]);

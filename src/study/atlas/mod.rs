@@ -1,0 +1,172 @@
+//! The atlas of known failures: each row runs the plain method, which fails, and its remedy, which survives, and tells
+//! them apart by one number. `lithosph study atlas` makes the page; `tests/atlas.rs` holds every row to what it states.
+//!
+//! A row is a scene of `scenes/` with changes, or a scene beside the row, and a line in [`rows::ROWS`]. A run leaves its
+//! series and particles in a folder of its own, from which page and numbers can be made again, so that the same command
+//! goes on where a kill left it.
+
+mod outcome;
+mod page;
+pub mod rows;
+mod side;
+mod table;
+
+pub use outcome::Outcome;
+pub use side::{Machine, Side, Size, Text};
+
+use crate::run::{INTERRUPTED, Stop};
+use crate::scene::read::hint;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+use table::{Record, Table};
+
+/// A known failure, its remedy, and what tells one from the other.
+#[derive(Debug)]
+pub struct Row {
+    /// Its word on the command line.
+    pub name: &'static str,
+    /// What goes wrong and what mends it.
+    pub failure: &'static str,
+    pub source: &'static str,
+    pub plain: Side,
+    pub remedy: Side,
+    pub measure: Measure,
+    pub fails: Bound,
+    pub survives: Bound,
+    /// Series charted for both runs, if any.
+    pub trace: Option<Trace>,
+    /// Overrides of both runs that make them short enough for a test; none where they are.
+    pub small: &'static [&'static str],
+}
+
+/// The number that a row is judged by.
+#[derive(Debug, Clone, Copy)]
+pub struct Measure {
+    pub about: &'static str,
+    pub of: fn(&Outcome) -> Result<f64, String>,
+}
+
+/// A range that is open to one side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    Above(f64),
+    Below(f64),
+}
+
+/// A series of both runs over time.
+#[derive(Debug, Clone, Copy)]
+pub struct Trace {
+    pub series: &'static str,
+    pub about: &'static str,
+    /// Logarithmic ordinate.
+    pub log: bool,
+}
+
+/// What a row gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    pub plain: f64,
+    pub remedy: f64,
+    /// The plain method failed, and the remedy survived.
+    pub as_stated: bool,
+}
+
+impl Bound {
+    pub fn holds(self, number: f64) -> bool {
+        match self {
+            Self::Above(least) => number > least,
+            Self::Below(most) => number < most,
+        }
+    }
+
+    pub fn text(self) -> String {
+        match self {
+            Self::Above(least) => format!("> {least}"),
+            Self::Below(most) => format!("< {most}"),
+        }
+    }
+}
+
+impl Row {
+    /// Runs both sides into folders within `folder`.
+    ///
+    /// # Errors
+    /// A refused scene, a file that cannot be written, a measure that finds no number, or the user.
+    pub fn run(&self, folder: &Path, size: Size, mut tell: impl FnMut(&str)) -> Result<Verdict, Stop> {
+        let mut number = |side: &Side, word: &str| {
+            tell(word);
+            let outcome = side.run(&folder.join(word), size, self.small)?;
+            let number = (self.measure.of)(&outcome).map_err(|why| Stop::Failed(format!("{}, {word}: {why}", self.name)))?;
+            Ok((number, outcome.stopped.is_some()))
+        };
+        let ((plain, _), (remedy, broke_off)) = (number(&self.plain, "plain")?, number(&self.remedy, "remedy")?);
+        // A remedy that does not come to its end survives nothing, whatever it measured.
+        let remedy = if broke_off { f64::NAN } else { remedy };
+        Ok(Verdict { plain, remedy, as_stated: self.fails.holds(plain) && self.survives.holds(remedy) })
+    }
+}
+
+/// What the command line asks of the atlas.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// Names of the rows to run; all where empty.
+    pub rows: Vec<String>,
+    /// Folder of `atlas.csv`, `atlas.html` and `atlas/`.
+    pub out: PathBuf,
+    /// Runs rows that the table holds already.
+    pub force: bool,
+}
+
+/// Runs what the table lacks and writes the page; gives the table as text, and whether every row that was asked for
+/// behaved as stated.
+///
+/// # Errors
+/// An unknown row, a file that is no table of this kind, a run that is refused or goes wrong, or the user.
+pub fn run(request: &Request) -> Result<(String, bool), Stop> {
+    let wanted = chosen(&request.rows).map_err(Stop::Refused)?;
+    let mut table = Table::open(&request.out.join("atlas.csv")).map_err(Stop::Refused)?;
+    let bar = progress(wanted.len());
+    for row in &wanted {
+        bar.set_message(row.name);
+        if request.force || !table.holds(row) {
+            finish(row, request, &mut table, &bar)?;
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    page::write(&request.out, &table).map_err(Stop::Failed)?;
+    let as_stated = wanted.iter().all(|row| table.find(row).is_some_and(|record| record.verdict.as_stated));
+    Ok((table.text(&wanted), as_stated))
+}
+
+/// Runs a row and records it.
+fn finish(row: &'static Row, request: &Request, table: &mut Table, bar: &ProgressBar) -> Result<(), Stop> {
+    let begin = Instant::now();
+    let folder = page::folder(&request.out, row);
+    let verdict = row.run(&folder, Size::Full, |side| bar.set_message(format!("{}, {side}", row.name)))?;
+    if INTERRUPTED.load(Ordering::Relaxed) {
+        return Err(Stop::Interrupted(format!("interrupted in {}; the same command goes on from there", row.name)));
+    }
+    page::paint(&request.out, row).map_err(Stop::Failed)?;
+    table.record(Record { row, verdict, seconds: begin.elapsed().as_secs_f64() }).map_err(Stop::Failed)
+}
+
+/// Rows by name, in the order of the atlas.
+fn chosen(names: &[String]) -> Result<Vec<&'static Row>, String> {
+    let known: Vec<&str> = rows::ROWS.iter().map(|row| row.name).collect();
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(format!("the atlas has no row `{name}`{}", hint(name, &known)));
+    }
+    Ok(rows::ROWS.iter().copied().filter(|row| names.is_empty() || names.iter().any(|name| name == row.name)).collect())
+}
+
+/// Hidden by itself where stderr is no terminal.
+fn progress(rows: usize) -> ProgressBar {
+    let bar = ProgressBar::new(rows as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}  {msg}  {elapsed_precise}") {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,91 @@
+//! Every row of the atlas of failures behaves as it states; and its command goes on where it was stopped.
+
+mod cli_support;
+
+use cli_support::Sandbox;
+use lithosph::study::atlas::Size;
+use lithosph::study::atlas::rows::ROWS;
+
+#[test]
+fn plain_methods_fail_and_remedies_survive() {
+    let sandbox = Sandbox::new("atlas-rows");
+    let mut wrong = Vec::new();
+    for row in ROWS {
+        let begin = std::time::Instant::now();
+        let verdict =
+            row.run(&sandbox.path(row.name), Size::Test, |_| {}).unwrap_or_else(|stop| panic!("{}: {stop:?}", row.name));
+        let line = format!("{}: plain {:.4e}, remedy {:.4e}", row.name, verdict.plain, verdict.remedy);
+        println!("{line}, {:.1} s", begin.elapsed().as_secs_f64());
+        if !verdict.as_stated {
+            wrong.push(line);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn names_are_words_of_their_own() {
+    for (k, row) in ROWS.iter().enumerate() {
+        assert!(row.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'), "{}", row.name);
+        assert!(ROWS[..k].iter().all(|other| other.name != row.name), "{} comes twice", row.name);
+    }
+}
+
+const ROWS_ASKED_FOR: [&str; 4] = ["study", "atlas", "tensile_instability_line", "contact_zones"];
+
+#[test]
+fn a_finished_row_is_not_run_again() {
+    let sandbox = Sandbox::new("atlas-again");
+    let said = sandbox.lithosph(&ROWS_ASKED_FOR[..3]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
+    let table = || std::fs::read_to_string(sandbox.path("out/study/atlas.csv")).unwrap();
+    let (first, page) = (table(), std::fs::read_to_string(sandbox.path("out/study/atlas.html")).unwrap());
+    assert!(first.lines().count() == 2 && first.contains(",as stated,") && said.out.contains("as stated"), "{first}{said:?}");
+    assert!(page.contains("tensile instability line") && !page.contains("contact zones"), "{page:.2000}");
+    for file in ["atlas/tensile_instability_line.png", "atlas/tensile_instability_line-trace.svg"] {
+        assert!(sandbox.exists(&format!("out/study/{file}")), "{file}");
+    }
+    let changed = |name: &str| std::fs::metadata(sandbox.path(name)).and_then(|data| data.modified()).unwrap();
+    let series = "out/study/atlas/tensile_instability_line/plain/series.csv";
+    let before = changed(series);
+
+    let said = sandbox.lithosph(&ROWS_ASKED_FOR);
+    assert_eq!(said.code, Some(0), "{said:?}");
+    assert_eq!((changed(series), table().lines().count()), (before, 3));
+    assert!(table().starts_with(&first) && said.out.contains("contact_zones"), "{said:?}");
+    assert_eq!(sandbox.lithosph(&[&ROWS_ASKED_FOR[..3], &["--force"]].concat()).code, Some(0));
+    assert!(changed(series) > before);
+}
+
+/// The numbers in the table are judged anew: one that is not as stated ends with exit code 1.
+#[test]
+fn a_row_that_does_not_behave_is_told() {
+    let sandbox = Sandbox::new("atlas-wrong");
+    assert_eq!(sandbox.lithosph(&ROWS_ASKED_FOR[..3]).code, Some(0));
+    let file = sandbox.path("out/study/atlas.csv");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let mut cells: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+    let rewrite = |cells: &[&str]| {
+        std::fs::write(&file, format!("{}\n{}\n", text.lines().next().unwrap(), cells.join(","))).unwrap();
+        sandbox.lithosph(&ROWS_ASKED_FOR[..3])
+    };
+    cells[2] = "1.25";
+    let said = rewrite(&cells);
+    assert!(said.code == Some(1) && said.out.contains("NOT AS STATED"), "{said:?}");
+    // A row of another scene or version is run again.
+    cells[8] = "0123456789abcdef";
+    let said = rewrite(&cells);
+    assert!(said.code == Some(0) && said.out.contains("as stated"), "{said:?}");
+}
+
+#[test]
+fn a_slip_is_refused_in_one_line() {
+    let sandbox = Sandbox::new("atlas-slip");
+    let said = sandbox.lithosph(&["study", "atlas", "tensile_instabilty"]);
+    assert_eq!((said.code, said.err.lines().count()), (Some(2), 1), "{said:?}");
+    assert!(said.err.contains("did you mean `tensile_instability`?") && !sandbox.exists("out"), "{said:?}");
+    std::fs::create_dir_all(sandbox.path("out/study")).unwrap();
+    sandbox.write("out/study/atlas.csv", "time,energy\n0,1\n");
+    let said = sandbox.lithosph(&ROWS_ASKED_FOR[..3]);
+    assert!(said.code == Some(2) && said.err.contains("is there and no atlas"), "{said:?}");
+}
