@@ -84,7 +84,11 @@ fn agreement(found: &Found, runs: &Runs) -> String {
     let within = runs.iter().filter(|run| run.difference.abs() <= 0.1).count();
     let largest = runs.iter().map(|run| run.difference.abs()).fold(0.0, f64::max);
     let (name, count) = (name(&found.values), runs.len());
-    let damped = if found.setting.filters() { "; theory leaves out the velocity filter of the runs" } else { "" };
+    let damped = match (found.setting.filters(), found.setting.dissipates()) {
+        (true, _) => "; theory leaves out the velocity filter of the runs",
+        (false, true) => "; theory has viscosity to first order",
+        (false, false) => "",
+    };
     format!("{name}{count} waves run, {within} within 10 % of theory, largest difference {:.2} %{damped}", 100.0 * largest)
 }
 
