@@ -387,6 +387,8 @@ fn a_study_goes_on_where_it_was_stopped() {
     let kept: Vec<&str> = short.lines().take(5).collect();
     assert!(long.lines().take(5).eq(kept) && long.lines().count() == 2 + 6, "{long}");
     assert_eq!(read("block.csv").lines().count(), 3);
+    // Of few waves no map is made.
+    assert!(!read("block.html").contains("Growth rate in runs"));
     assert_eq!(read("block-zone.csv").lines().count(), 1 + 2 * (13 * 13 - 1));
     assert!(read("block.html").contains("<svg") && read("block-2.svg").contains("<svg"));
     assert!(folder.join("block-1.png").exists() && folder.join("block-runs.png").exists());

@@ -11,14 +11,16 @@ use std::path::Path;
 const COLUMNS: [&str; 7] =
     ["fastest kx dx", "ky dx", "kz dx", "rate dx/c", "largest frequency dx/c", "leapfrog step", "leapfrog step c/h"];
 
-/// A row for each setting, the first their names.
+/// A row for each setting, the first their names; no wave where none grows.
 pub fn setting_rows(paths: &[String], found: &[Found]) -> Vec<Vec<String>> {
-    rows(paths, &COLUMNS, found, |one| vec![numbers(one).iter().map(|&number| shortest(number)).collect()])
+    rows(paths, &COLUMNS, found, |one| {
+        vec![numbers(one).iter().map(|&number| if number.is_nan() { String::new() } else { shortest(number) }).collect()]
+    })
 }
 
 fn numbers(found: &Found) -> [f64; 7] {
     let (setting, growth) = (&found.setting, &found.growth);
-    let [x, y, z] = growth.wave.map(|k| k * setting.spacing());
+    let [x, y, z] = growth.wave.map(|k| if growth.mode.rate > 0.0 { k * setting.spacing() } else { f64::NAN });
     let unit = setting.unit_rate();
     let step = growth.leapfrog_step;
     let over = step * setting.sound_speed() / setting.smoothing_length();
@@ -54,8 +56,11 @@ fn word(integrator: crate::scene::file::Integrator) -> String {
     toml::Value::try_from(integrator).ok().and_then(|value| value.as_str().map(str::to_string)).unwrap_or_default()
 }
 
-/// Five digits.
+/// Five digits; nothing where there is no number.
 fn digits(number: f64) -> String {
+    if number.is_nan() {
+        return String::new();
+    }
     if number == 0.0 || (1e-3..1e5).contains(&number.abs()) { format!("{number:.5}") } else { format!("{number:.4e}") }
 }
 
@@ -79,7 +84,11 @@ fn agreement(found: &Found, runs: &Runs) -> String {
     let within = runs.iter().filter(|run| run.difference.abs() <= 0.1).count();
     let largest = runs.iter().map(|run| run.difference.abs()).fold(0.0, f64::max);
     let (name, count) = (name(&found.values), runs.len());
-    let damped = if found.setting.filters() { "; theory leaves out the velocity filter of the runs" } else { "" };
+    let damped = match (found.setting.filters(), found.setting.dissipates()) {
+        (true, _) => "; theory leaves out the velocity filter of the runs",
+        (false, true) => "; theory has viscosity to first order",
+        (false, false) => "",
+    };
     format!("{name}{count} waves run, {within} within 10 % of theory, largest difference {:.2} %{damped}", 100.0 * largest)
 }
 
@@ -112,7 +121,8 @@ pub fn write(label: &str, paths: &[String], found: &[Found], runs: Option<&Runs>
     }];
     for (k, one) in found.iter().enumerate() {
         let name = if one.values.is_empty() { label.to_string() } else { one.values.join(", ") };
-        let picture = one.zone.picture(&name, &one.growth, &one.setting);
+        let measured: Vec<&Measured> = runs.map_or_else(Vec::new, |runs| runs.of(&one.values).collect());
+        let picture = one.zone.picture(&name, &one.growth, &one.setting, &measured);
         let stem = if found.len() > 1 { beside(out, &format!("-{}", k + 1)) } else { beside(out, "") };
         picture.write(&stem)?;
         let mut section = Section { heading: name, pictures: vec![picture], ..Section::default() };
@@ -142,7 +152,8 @@ fn limits_section(paths: &[String], found: &[Found]) -> Section {
         text: vec![
             "The largest omega dt at which an oscillator does not grow, that over the largest frequency of the discrete \
              equations, and the step from which on runs of 2000 steps, kicked at one particle, grow. rk2 has no stable step: \
-             its row has the growth of the fastest oscillation's amplitude a step."
+             its row has the growth of the fastest oscillation's amplitude a step. The lattice has no end: the edges of a body \
+             may ask for shorter steps, and so does viscosity."
                 .into(),
         ],
         table: Some(table(&limit_rows(paths, found))),
@@ -188,7 +199,7 @@ fn comparison(found: &[Found], runs: &Runs) -> Picture {
     };
     let series = measured.into_iter().filter(|series| !series.points.is_empty()).chain([line]).collect();
     Picture::Chart(Chart {
-        title: "Growth rates and frequencies of runs beside theory".into(),
+        title: "Runs beside theory".into(),
         note: "each point a plane wave".into(),
         x: Axis::linear("theory, c/dx"),
         y: Axis::linear("run, c/dx"),

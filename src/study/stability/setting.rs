@@ -112,6 +112,9 @@ impl Setting {
     /// Motions of a wave with the scene's viscosity, by falling growth rate and rising frequency.
     pub fn modes(&self, k: [f64; 3]) -> Vec<Mode> {
         let mut modes = self.waves().modes(k);
+        // What rounding leaves of a wave that swings or is neutral: the root of the eigenvalue's.
+        let rounding = 1e-6 * self.unit_rate();
+        modes.iter_mut().filter(|mode| mode.rate < rounding).for_each(|mode| mode.rate = 0.0);
         if let Some(viscous) = &self.viscous {
             modes.iter_mut().for_each(|mode| *mode = viscous.damped(k, *mode));
             by_growth(&mut modes);
