@@ -21,7 +21,8 @@
 //!    [`pass::Pass::BondForce`] sums what the bonds carry of it, the derivative of an energy.
 //! 6. Every pass exists twice under one name: `shaders/pass/x.wgsl` and `src/pass/x.rs`. [`backend::gpu`] runs
 //!    the first in f32 with the state resident on the device; [`backend::cpu`] runs the second in f64 on all
-//!    cores. [`backend::shader`] composes the text of the first and reads its bindings back.
+//!    cores. [`backend::shader`] composes the text of the first and reads its bindings back, from the parts of
+//!    [`registry`] that the method names and no others.
 //! 7. At an output the run loop ([`run`]) fetches the fields that the scene's observables read, and no others;
 //!    [`observable`] makes numbers of them, [`output`] files and pictures, [`check`] verdicts.
 //!
@@ -44,6 +45,7 @@ pub mod output;
 pub mod pair;
 pub mod particles;
 pub mod pass;
+pub mod registry;
 pub mod run;
 pub mod scene;
 pub mod shape;

@@ -5,6 +5,7 @@ mod corrected_kernel;
 use crate::contact::zones::Normals;
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
+use crate::registry::Registry;
 use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use crate::state::Method;
 
@@ -346,8 +347,16 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
     calls
 }
 
-/// Fields that the passes of this method read or write, and no others.
+/// Fields that the passes of this method read or write, and no others, in the order of their list.
+///
+/// # Panics
+/// Never: the full registry holds every field.
 pub fn fields(method: &Method) -> Vec<Field> {
+    Registry::full().fields(method).unwrap_or_else(|wrong| panic!("{wrong}"))
+}
+
+/// The same in no order, before a registry has been asked for them; some come twice.
+pub fn needed_fields(method: &Method) -> Vec<Field> {
     use Field::*;
     let staged = method.staged();
     let eulerian = method.kind == Kind::Eulerian;
@@ -401,17 +410,26 @@ pub fn fields(method: &Method) -> Vec<Field> {
         (staged && method.dissipated_power(), &[DissipatedEnergyStart, DissipatedEnergySum]),
     ];
     let own = method.corrected_kernel.map_or_else(Vec::new, |options| corrected_kernel::fields(options, staged));
-    let mut list: Vec<Field> = wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect();
-    list.sort_unstable();
-    list.dedup();
-    list
+    wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect()
+}
+
+/// All calls of a run of this method with the stage of the run that makes them; what precedes a fetch is that of all
+/// fields.
+pub fn calls(method: &Method) -> Vec<(&'static str, Call)> {
+    let stages = [
+        ("prepare", prepare(method)),
+        ("begin_segment", begin_segment(method)),
+        ("begin_run", begin_run(method)),
+        ("step", step(method)),
+        ("before_fetch", before_fetch(method, &needed_fields(method))),
+    ];
+    stages.into_iter().flat_map(|(stage, calls)| calls.into_iter().map(move |call| (stage, call))).collect()
 }
 
 /// Every pass that a run of this method dispatches, each once, in order of first use.
 pub fn passes(method: &Method) -> Vec<Pass> {
     let mut list: Vec<Pass> = Vec::new();
-    let before = prepare(method).into_iter().chain(begin_segment(method)).chain(begin_run(method));
-    for call in before.chain(step(method)).chain(before_fetch(method, &fields(method))) {
+    for (_, call) in calls(method) {
         if !list.contains(&call.pass) {
             list.push(call.pass);
         }

@@ -157,3 +157,80 @@ fn a_scene_with_expectations_of_variants_goes_on() {
     let said = cli_support::said(child);
     assert_eq!(said.code, Some(130), "{said:?}");
 }
+
+/// A block is drawn along another, which lies on a plane: both rub, and what the springs of friction hold goes on.
+const RUBBING: &str = r#"title = "Two blocks rub"
+dimension = 2
+units = "dimensionless"
+spacing = 1
+duration = 240
+
+[[body]]
+name = "lower"
+shape = { block = { min = [0, 0], max = [12, 5] } }
+anchor = [0.5, 0.5]
+material = "rubber"
+velocity = [0.01, 0]
+
+[[body]]
+name = "upper"
+shape = { block = { min = [3, 5], max = [9, 9] } }
+anchor = [3.5, 5.5]
+material = "rubber"
+
+[material.rubber]
+law = "neo_hookean"
+density = 1
+youngs_modulus = 1
+poisson_ratio = 0.3
+
+[[boundary]]
+name = "upper"
+select = { body = "upper" }
+velocity = [0.02, "free"]
+force = [0, -0.06]
+
+[[contact]]
+between = ["lower", "upper"]
+gap = { friction = 0.2 }
+
+[[obstacle]]
+name = "floor"
+shape = { plane = { point = [0, 0], normal = [0, 1] } }
+friction = 0.3
+
+[formulation]
+kind = "total_lagrangian"
+
+[output]
+series = 1
+frames = 1
+picture = { field = "pressure", width = 320, height = 240 }
+
+[observe]
+total = { kind = "total_energy" }
+drag = { kind = "obstacle_force", obstacle = "floor", axis = "x" }
+"#;
+
+#[test]
+fn friction_goes_on_with_what_its_springs_hold() {
+    let sandbox = Sandbox::new("resume-friction");
+    sandbox.write("rubbing.toml", RUBBING);
+    let place = ["--backend", "cpu"];
+    good(&sandbox.lithosph(&[&["run", "rubbing.toml", "--out", "whole"], &place[..]].concat()));
+    let (whole, parts) = (sandbox.path("whole"), sandbox.path("parts"));
+    let mut child = sandbox.command(&[&["run", "rubbing.toml", "--out", "parts"], &place[..]].concat()).spawn().unwrap();
+    until("there are frames", || frames(&parts) >= 10 && parts.join("checkpoint.h5").exists());
+    signal(&child, libc::SIGKILL);
+    assert!(!child.wait().unwrap().success());
+    assert!(!parts.join("summary.json").exists(), "the run was over before it was killed");
+    good(&sandbox.lithosph(&[&["run", "--resume", "parts"], &place[..]].concat()));
+    let (ours, theirs) = (checkpoint(&whole), checkpoint(&parts));
+    assert!(ours.keys().eq(theirs.keys()));
+    for name in ["facet_slip", "facet_obstacle_slip"] {
+        assert!(ours[name].iter().any(|&byte| byte != 0), "nothing rubs: {name}");
+    }
+    ours.iter().for_each(|(name, column)| assert!(*column == theirs[name], "the checkpoint's {name} differs"));
+    let rows = |folder: &Path| std::fs::read(folder.join("series.csv")).unwrap();
+    assert!(rows(&whole) == rows(&parts), "series.csv differs");
+}

@@ -6,6 +6,7 @@ mod common;
 use common::Random;
 use lithosph::backend::shader::{Shader, compose};
 use lithosph::material::Law;
+use lithosph::registry::Registry;
 use lithosph::scene::Scene;
 use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
 use lithosph::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
@@ -69,7 +70,12 @@ fn shaders_of_every_scene_are_valid() {
         let methods: Vec<Method> = variants.map(|scene| scene.method).chain([plain.method.clone()]).collect();
         for method in methods {
             for compensated in [false, true] {
-                wrong.extend(check(&Method { compensated, ..method.clone() }, &mut seen));
+                let method = Method { compensated, ..method.clone() };
+                wrong.extend(check(&method, &mut seen));
+                // It pays for nothing that another scene names: all else may be gone.
+                let own = Registry::own(&method).unwrap();
+                assert!(own.parts.len() < Registry::full().parts.len(), "{}", path.display());
+                assert_eq!(own.texts(&method), Registry::full().texts(&method), "{}", path.display());
             }
         }
     }

@@ -2,12 +2,10 @@
 //! Neumann's analysis of the same discrete equations gives, and a stable one must not grow.
 
 use lithosph::backend::Choice;
-use lithosph::run::{Finished, Options, run};
+use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;
-use lithosph::smoothing::Smoothing;
-use lithosph::study::von_neumann::{
-    ArtificialStress, Equations, Gradient, Lattice, Medium, Mode, fixed_wave_vectors, periodic_wave_vectors,
-};
+use lithosph::study::stability::{self, Request, Setting, chosen, growth, simulate};
+use lithosph::study::von_neumann::{Gradient, Mode, fixed_wave_vectors};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Law {
@@ -65,25 +63,19 @@ impl Case {
         (bulk + 4.0 / 3.0 * shear).sqrt()
     }
 
-    fn equations(&self) -> Equations {
-        let (bulk, shear) = self.moduli();
-        let mut medium = Medium::at_volume(self.relative_volume, 1.0, bulk, shear);
-        medium.deviator[..2].copy_from_slice(&[self.deviator, -self.deviator]);
-        let artificial_stress = match self.artificial {
-            None => ArtificialStress::None,
-            Some((epsilon, false)) => ArtificialStress::Scalar { epsilon, exponent: 4.0, spacing: 1.0 },
-            Some((epsilon, true)) => ArtificialStress::Principal { epsilon, exponent: 4.0, spacing: 1.0 },
-        };
-        let lattice =
-            Lattice { dimension: self.dimension, spacing: 1.0, smoothing: Smoothing::CubicSpline, smoothing_length: self.h };
-        Equations::new(lattice, medium, artificial_stress, self.gradient)
+    fn setting(&self) -> Setting {
+        Setting::new(&parsed(&self.text("", 1.0, 1))).unwrap_or_else(|reason| panic!("{self:?}: {reason}"))
+    }
+
+    /// Particles a side of the box whose waves are looked at.
+    fn side(&self) -> usize {
+        self.cells[0]
     }
 
     /// The fastest wave of the periodic box.
     fn fastest(&self) -> ([f64; 3], Mode) {
-        let equations = self.equations();
-        let (wave, _) = equations.fastest(&periodic_wave_vectors(self.cells, 1.0));
-        (wave, equations.mode(wave))
+        let growth = growth(&self.setting(), self.side());
+        (growth.wave, growth.mode)
     }
 
     fn list(&self, numbers: impl Fn(usize) -> f64) -> String {
@@ -145,8 +137,12 @@ impl Case {
     }
 }
 
+fn parsed(text: &str) -> Scene {
+    Scene::parse(text, "stability", None, &[]).unwrap_or_else(|reason| panic!("{reason}\n{text}"))
+}
+
 fn finished(text: &str) -> Finished {
-    let scene = Scene::parse(text, "stability", None, &[]).unwrap();
+    let scene = parsed(text);
     let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
     run(&scene, &options).unwrap_or_else(|stop| panic!("{stop:?}\n{text}"))
 }
@@ -160,37 +156,16 @@ fn slope(finished: &Finished, from: f64) -> f64 {
     rows.iter().map(|r| (r.0 - t) * (r.1 - y)).sum::<f64>() / rows.iter().map(|r| (r.0 - t).powi(2)).sum::<f64>()
 }
 
-/// Largest velocity of the seeded wave; after e^9 it still moves particles by less than 1e-3 spacings.
-const SEED: f64 = 1e-10;
-/// v = SEED cosh(rate t): after three e-foldings it is the exponential to 0.25 %.
-const TRANSIENT: f64 = 3.0;
-const FITTED: f64 = 6.0;
-
-/// Runs a periodic box seeded with its fastest mode; measured and theoretical growth rates over c/dx.
-fn rates(case: &Case) -> (f64, f64) {
-    let (wave, mode) = case.fastest();
-    assert!(mode.rate > 0.0, "{case:?} is stable: nothing to measure");
-    assert!(mode.frequency < 0.01 * mode.rate, "{case:?} oscillates: {mode:?}");
-    // At the zone's edge a sine is zero on every particle.
-    let phase = std::f64::consts::FRAC_PI_4;
-    let amplitude = case.list(|k| SEED * mode.polarisation[k]);
-    let motion = format!(
-        "motion = {{ wave = {{ amplitude = {amplitude}, wave_vector = {}, phase = {phase:?} }} }}",
-        case.list(|k| wave[k])
-    );
-    let duration = (TRANSIENT + FITTED) / mode.rate;
-    let finished = finished(&(case.periodic() + &case.text(&motion, duration, 36)));
-    let measured = slope(&finished, TRANSIENT / mode.rate);
-    (measured / case.sound_speed(), mode.rate / case.sound_speed())
-}
-
+/// Runs the fastest wave of the box.
 fn compare(cases: &[Case]) {
     for case in cases {
         let begin = std::time::Instant::now();
-        let (measured, theory) = rates(case);
-        let error = measured / theory - 1.0;
-        println!("{measured:.5} {theory:.5} {:+.2} % {:.1} s {case:?}", 100.0 * error, begin.elapsed().as_secs_f64());
-        assert!(error.abs() < 0.01, "grew at {measured} c/dx, theory says {theory}: {case:?}");
+        let (wave, mode) = case.fastest();
+        assert!(mode.rate > 0.0, "{case:?} is stable: nothing to measure");
+        let run = simulate(&case.setting(), case.side(), wave).unwrap();
+        let error = run.rate / mode.rate - 1.0;
+        println!("{:.5} {:.5} {:+.2} % {:.1} s {case:?}", run.rate, mode.rate, 100.0 * error, begin.elapsed().as_secs_f64());
+        assert!(error.abs() < 0.01, "grew at {}, theory says {}: {case:?}", run.rate, mode.rate);
     }
 }
 
@@ -314,7 +289,7 @@ fn a_block_with_a_held_border_grows_nearly_as_theory_says() {
     {
         let case = Case { cells: [47, 47, 1], ..case };
         let free = [41, 41, 0];
-        let (_, theory) = case.equations().fastest(&fixed_wave_vectors(free, 1.0));
+        let (_, theory) = case.setting().waves().fastest(&fixed_wave_vectors(free, 1.0));
         let inside = |side: f64| format!("{{ block = {{ min = [{0}, {0}], max = [{1}, {1}] }} }}", -side, 46.0 + side);
         let border = format!(
             "[[boundary]]\nselect.inside.cut = {{ from = {}, remove = [{}] }}\nfixed = true\n",
@@ -326,4 +301,100 @@ fn a_block_with_a_held_border_grows_nearly_as_theory_says() {
         println!("{:.5} {:.5} {case:?}", measured / case.sound_speed(), theory / case.sound_speed());
         assert!((measured / theory - 1.0).abs() < 0.03, "grew at {measured}, theory says {theory}: {case:?}");
     }
+}
+
+/// Overrides of a Total Lagrangian lattice, and of an Eulerian one.
+const LAGRANGIAN: &str = "formulation = { kind = 'total_lagrangian' }\n[material.medium]\nlaw = 'neo_hookean'";
+const EULERIAN: &str = "formulation = { smoothing_length = 1.3 }\n[material.medium]\nlaw = 'elastic'";
+
+/// Kernels, widths, dimensions, states and both formulations; growing waves and swinging ones.
+#[test]
+fn maps_of_theory_and_of_runs_agree() {
+    let cases: &[(usize, &str, &[&str])] = &[
+        (1, EULERIAN, &["body.block.relative_volume=1.03", "formulation.smoothing=wendland", "formulation.smoothing_length=1.6"]),
+        (1, EULERIAN, &["body.block.relative_volume=1.02", "formulation.smoothing=gaussian", "formulation.smoothing_length=1.1"]),
+        (1, LAGRANGIAN, &["study.stability.deformation=[[0.8]]", "formulation.smoothing=quadratic"]),
+        (2, EULERIAN, &["body.block.relative_volume=0.97", "formulation.gradient=adjoint"]),
+        (2, EULERIAN, &["body.block.relative_volume=1.02", "formulation.smoothing=wendland", "formulation.smoothing_length=1.5"]),
+        (2, EULERIAN, &["body.block.relative_volume=1.03", "formulation.xsph=0.5", "formulation.smoothing_length=1.8"]),
+        (2, LAGRANGIAN, &["study.stability.deformation=[[1.4, 0.2], [0.0, 0.8]]", "formulation.smoothing=quadratic"]),
+        (2, LAGRANGIAN, &["study.stability.deformation=[[0.75, 0.0], [0.0, 0.8]]", "material.medium.law=st_venant_kirchhoff"]),
+        (
+            2,
+            LAGRANGIAN,
+            &["study.stability.damage=[0.5, 0.0]", "study.stability.whole_correction=true", "formulation.hourglass=0"],
+        ),
+        (
+            2,
+            LAGRANGIAN,
+            &[
+                "study.stability.deformation=[[1.1, 0.0], [0.0, 0.9]]",
+                "formulation.gradient=quadratic",
+                "formulation.smoothing_length=1.7",
+            ],
+        ),
+    ];
+    let (cells, mut growing, mut swinging) = (24, 0, 0);
+    for (dimension, formulation, overrides) in cases {
+        let text = format!(
+            "title = 'a lattice'
+            dimension = {dimension}
+            units = 'dimensionless'
+            spacing = 1.0
+            duration = 1.0
+            body = [{{ name = 'block', shape = {{ block = {{ min = [0, 0], max = [9, 9] }} }}, material = 'medium' }}]
+            {formulation}
+            density = 1.0
+            youngs_modulus = 1.0
+            poisson_ratio = 0.3
+            "
+        );
+        let overrides: Vec<String> = overrides.iter().map(|path| (*path).to_string()).collect();
+        let scene = Scene::parse(&text, "lattice", None, &overrides).unwrap_or_else(|reason| panic!("{reason}"));
+        let setting = Setting::new(&scene).unwrap();
+        for wave in chosen(&setting, cells, 5) {
+            let run = simulate(&setting, cells, wave).unwrap();
+            assert!(run.difference.abs() < 0.02, "{overrides:?} {run:?}");
+            *if run.theory.rate > 0.0 { &mut growing } else { &mut swinging } += 1;
+        }
+    }
+    println!("{growing} growing and {swinging} swinging waves");
+    assert!(growing >= 12 && growing + swinging >= 45, "{growing} {swinging}");
+}
+
+/// The command writes its tables, pictures and page, and runs no wave twice.
+#[test]
+fn a_study_goes_on_where_it_was_stopped() {
+    let folder = std::env::temp_dir().join(format!("lithosph-stability-{}", std::process::id()));
+    let out = folder.join("block.csv");
+    let request = |simulate: usize, cells: usize| Request {
+        scene: "scenes/tension_square.toml".into(),
+        vary: vec!["formulation.smoothing_length=1.3,1.8".into()],
+        cells,
+        simulate,
+        out: Some(out.clone()),
+        ..Request::default()
+    };
+    let text = stability::run(&request(2, 12)).unwrap();
+    assert!(text.contains("1.3: 2 waves run, 2 within 10 % of theory"), "{text}");
+    let read = |end: &str| std::fs::read_to_string(folder.join(end)).unwrap_or_else(|error| panic!("{end}: {error}"));
+    let short = read("block-runs.csv");
+    assert_eq!(short.lines().count(), 2 + 4);
+    // The last row is cut, as by a kill, and more waves are asked for: what is whole stays as it is.
+    std::fs::write(folder.join("block-runs.csv"), &short[..short.len() - 5]).unwrap();
+    stability::run(&request(3, 12)).unwrap();
+    let long = read("block-runs.csv");
+    let kept: Vec<&str> = short.lines().take(5).collect();
+    assert!(long.lines().take(5).eq(kept) && long.lines().count() == 2 + 6, "{long}");
+    assert_eq!(read("block.csv").lines().count(), 3);
+    // Of few waves no map is made.
+    assert!(!read("block.html").contains("Growth rate in runs"));
+    assert_eq!(read("block-zone.csv").lines().count(), 1 + 2 * (13 * 13 - 1));
+    assert!(read("block.html").contains("<svg") && read("block-2.svg").contains("<svg"));
+    assert!(folder.join("block-1.png").exists() && folder.join("block-runs.png").exists());
+    match stability::run(&request(3, 16)) {
+        Err(Stop::Refused(reason)) => assert!(reason.contains("--force"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -13,17 +13,18 @@ mod laws;
 use crate::contact::Potential;
 use crate::material::Law;
 use crate::pass::Pass;
+use crate::registry::{File, Registry};
 use crate::state::Method;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 macro_rules! library {
     ($($folder:ident: $($stem:ident),*;)*) => {
-        /// Folder, stem and text of each file that `#import` finds.
-        const LIBRARY: &[(&str, &str, &str)] = &[$($((
-            stringify!($folder),
-            stringify!($stem),
-            include_str!(concat!("../../shaders/", stringify!($folder), "/", stringify!($stem), ".wgsl")),
-        )),*),*];
+        /// The files that `#import` finds.
+        pub const LIBRARY: &[File] = &[$($(File {
+            folder: stringify!($folder),
+            stem: stringify!($stem),
+            text: include_str!(concat!("../../shaders/", stringify!($folder), "/", stringify!($stem), ".wgsl")),
+        }),*),*];
     };
 }
 
@@ -109,6 +110,24 @@ pub struct Choice<'a> {
 /// # Panics
 /// If a shader of this crate names an unknown flag, import or directive.
 pub fn compose(pass: Pass, method: &Method) -> String {
+    compose_from(Registry::full(), pass, method).unwrap_or_else(|wrong| panic!("{wrong}")).text
+}
+
+/// A composed shader.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Composed {
+    pub text: String,
+    /// What was imported, each once, in order of first use; `tensor` by the stem of its file.
+    pub imports: Vec<String>,
+}
+
+/// The WGSL of a pass from what a registry holds.
+///
+/// # Errors
+/// One sentence on what the registry lacks, or the place where a shader names an unknown flag, import or directive.
+pub fn compose_from(registry: &Registry, pass: Pass, method: &Method) -> Result<Composed, String> {
+    registry.check(method)?;
+    registry.check_pass(pass)?;
     let choice = Choice {
         flags: &method.flags(),
         dimension: method.dimension,
@@ -116,53 +135,61 @@ pub fn compose(pass: Pass, method: &Method) -> String {
         laws: &method.laws,
         potentials: &method.contact.potentials,
     };
-    compose_text(pass.name(), pass.source(), &choice)
+    composed(registry, pass.name(), pass.source(), &choice)
 }
 
 /// The same for any text; `name` is for messages.
+///
+/// # Panics
+/// As [`compose`].
 pub fn compose_text(name: &str, source: &str, choice: &Choice) -> String {
+    composed(Registry::full(), name, source, choice).unwrap_or_else(|wrong| panic!("{wrong}")).text
+}
+
+fn composed(registry: &Registry, name: &str, source: &str, choice: &Choice) -> Result<Composed, String> {
     if let Some(flag) = choice.flags.iter().find(|flag| !FLAGS.contains(flag)) {
-        panic!("flag {flag} is missing from the list of known flags in backend/shader.rs");
+        return Err(format!("flag {flag} is missing from the list of known flags in backend/shader.rs"));
     }
-    let mut composer = Composer { choice, imported: Vec::new(), text: String::new() };
-    composer.add(name, source);
-    number_bindings(&composer.text)
+    let mut composer = Composer { registry, choice, imported: Vec::new(), text: String::new() };
+    composer.add(name, source)?;
+    Ok(Composed { text: number_bindings(&composer.text), imports: composer.imported })
 }
 
 struct Composer<'a> {
+    registry: &'a Registry,
     choice: &'a Choice<'a>,
     imported: Vec<String>,
     text: String,
 }
 
 impl Composer<'_> {
-    fn add(&mut self, name: &str, source: &str) {
+    fn add(&mut self, name: &str, source: &str) -> Result<(), String> {
         // For each open `#if`: whether its present branch is kept.
         let mut open: Vec<bool> = Vec::new();
         for (k, line) in source.lines().enumerate() {
-            let wrong = |what: &str| -> ! { panic!("{name}.wgsl line {}: {what}: {line}", k + 1) };
+            let wrong = |what: &str| Err(format!("{name}.wgsl line {}: {what}: {line}", k + 1));
             let kept = open.iter().all(|&branch| branch);
             let words: Vec<&str> = line.split_whitespace().collect();
             match words[..] {
                 ["#if", flag] => {
                     let (word, wanted) = flag.strip_prefix('!').map_or((flag, true), |word| (word, false));
                     if !FLAGS.contains(&word) {
-                        wrong("unknown flag");
+                        return wrong("unknown flag");
                     }
                     open.push(self.choice.flags.contains(&word) == wanted);
                 }
                 ["#else"] => match open.last_mut() {
                     Some(branch) => *branch = !*branch,
-                    None => wrong("no open #if"),
+                    None => return wrong("no open #if"),
                 },
-                ["#endif"] if open.pop().is_none() => wrong("no open #if"),
+                ["#endif"] if open.pop().is_none() => return wrong("no open #if"),
                 ["#endif"] => {}
                 ["#import", import] if kept => match self.find(import) {
-                    Some(text) => self.import(import, text),
-                    None => wrong("unknown import"),
+                    Some((stem, text)) => self.import(stem, &text)?,
+                    None => return wrong("unknown import"),
                 },
                 ["#import", _] => {}
-                [word, ..] if word.starts_with('#') => wrong("unknown directive"),
+                [word, ..] if word.starts_with('#') => return wrong("unknown directive"),
                 _ if kept => {
                     self.text.push_str(line);
                     self.text.push('\n');
@@ -170,25 +197,28 @@ impl Composer<'_> {
                 _ => {}
             }
         }
-        assert!(open.is_empty(), "{name}.wgsl: an #if is not closed");
+        if open.is_empty() { Ok(()) } else { Err(format!("{name}.wgsl: an #if is not closed")) }
     }
 
-    fn find(&self, import: &str) -> Option<String> {
+    /// Stem and text of what an import names.
+    fn find(&self, import: &str) -> Option<(String, String)> {
         let stem = match import {
-            "smoothing" => return Some(self.choice.smoothing.to_string()),
-            "potential" => return Some(contacts::text(self.choice.potentials)),
-            "laws" => return Some(laws::text(self.choice.laws)),
+            "smoothing" => return Some((import.into(), self.choice.smoothing.to_string())),
+            "potential" => return Some((import.into(), contacts::text(self.choice.potentials))),
+            "laws" => return Some((import.into(), laws::text(self.choice.laws))),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),
         };
-        LIBRARY.iter().find(|(_, name, _)| *name == stem).map(|(_, _, text)| text.to_string())
+        let file = self.registry.file(&stem)?;
+        Some((stem, file.text.to_string()))
     }
 
-    fn import(&mut self, name: &str, text: String) {
-        if !self.imported.iter().any(|done| done == name) {
-            self.imported.push(name.to_string());
-            self.add(name, &text);
+    fn import(&mut self, stem: String, text: &str) -> Result<(), String> {
+        if self.imported.contains(&stem) {
+            return Ok(());
         }
+        self.imported.push(stem.clone());
+        self.add(&stem, text)
     }
 }
 

@@ -63,6 +63,19 @@ fn gap(seen: f64, value: f64, expect: &Expect) -> f64 {
     if gap > 0.0 && expect.relative { gap / value.abs() } else { gap }
 }
 
+/// How far a run ended from an expectation's value as a fraction of it, or where it is 0 of the largest number of the
+/// run's own series.
+///
+/// # Errors
+/// One sentence where the run gave no number to compare, or there is nothing to be a fraction of.
+pub fn fraction(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
+    let value = expect.value.ok_or_else(|| format!("{name}: has no value"))?;
+    let gap = (number(scene, finished, name, expect)? - value).abs();
+    let largest = |values: Vec<f64>| values.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+    let scale = if value == 0.0 { largest(values(scene, finished, name)?) } else { value.abs() };
+    if gap == 0.0 { Ok(0.0) } else { Ok(gap / scale) }
+}
+
 /// Reads every reference that a scene names, so that a missing one shows before the run.
 pub fn references(scene: &Scene, folder: &Path) -> Result<(), String> {
     let named = scene.file.expect.values().filter_map(|expect| Some((expect.reference.as_ref()?, expect)));
@@ -105,17 +118,24 @@ fn row(scene: &Scene, finished: &Finished, folder: &Path, name: &str, expect: &E
 }
 
 /// One number of an observable: a result, or a statistic of its series.
-fn number(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
+///
+/// # Errors
+/// One sentence where the run gave none.
+pub fn number(scene: &Scene, finished: &Finished, name: &str, expect: &Expect) -> Result<f64, String> {
     let typed = &scene.file.observe[name];
     let kind = KINDS.iter().find(|k| k.word == typed.kind).ok_or("unknown kind")?;
     if let Value::Result(of) = kind.value {
         return of(&finished.table, typed).map_err(|e| format!("{name}: {e}"));
     }
-    let values: Vec<f64> = match finished.profiles.get(name) {
+    Ok(statistic(&values(scene, finished, name)?, expect.statistic.unwrap_or(Statistic::Final)))
+}
+
+/// A profile, or a series within its window.
+fn values(scene: &Scene, finished: &Finished, name: &str) -> Result<Vec<f64>, String> {
+    Ok(match finished.profiles.get(name) {
         Some(rows) => rows.iter().map(|r| r.1).collect(),
-        None => finished.table.window(name, typed)?.into_iter().map(|r| r.1).collect(),
-    };
-    Ok(statistic(&values, expect.statistic.unwrap_or(Statistic::Final)))
+        None => finished.table.window(name, &scene.file.observe[name])?.into_iter().map(|r| r.1).collect(),
+    })
 }
 
 fn statistic(values: &[f64], statistic: Statistic) -> f64 {

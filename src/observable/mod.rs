@@ -243,8 +243,9 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
     if expect.source.is_empty() {
         return Err("needs a source: where does the number come from?".into());
     }
-    // A range beside a reference is that of a distance known to be too large.
-    let forms = [expect.value.is_some(), expect.reference.is_some(), expect.between.is_some() && expect.reference.is_none()];
+    // A range beside a reference is that of a distance known to be too large; beside a value it is what is known to be seen.
+    let alone = expect.between.is_some() && expect.reference.is_none() && expect.value.is_none();
+    let forms = [expect.value.is_some(), expect.reference.is_some(), alone];
     if forms.iter().filter(|&&f| f).count() != 1 {
         return Err("needs exactly one of value, reference and between".into());
     }

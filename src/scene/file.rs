@@ -8,6 +8,7 @@ use super::copies::Copies;
 use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
+use super::study::Groups;
 use crate::contact::Potential;
 use crate::facet::GapForm;
 use crate::material::Law;
@@ -701,7 +702,8 @@ pub struct Expect {
     /// Column of the abscissa (time, or position for a profile) and of the ordinate, or of both coordinates of a trace.
     pub columns: Option<Vec<String>>,
     pub norm: Option<Norm>,
-    /// Range of a number that is known to miss, or with a reference of the distance from it.
+    /// Range of a number that is known to miss, beside it perhaps the value that is true; or with a reference of the
+    /// distance from it.
     pub between: Option<[f64; 2]>,
     pub because: Option<String>,
     /// How one number is made of a series: final unless given.
@@ -736,6 +738,20 @@ pub enum Statistic {
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Study {
-    /// Override paths in quotes, and the values that each takes: `"time.cfl" = [0.2, 0.4]`.
-    pub accuracy: Option<BTreeMap<String, Vec<toml::Value>>>,
+    /// Under `[study.accuracy]` one group, or one under each `[[study.accuracy]]`.
+    pub accuracy: Option<Groups>,
+    /// Uniform state in which `study stability` finds a Total Lagrangian body.
+    pub stability: Option<Stability>,
+}
+
+/// A body of finite strain starts a run unstressed; its stability is asked for in a state of its own.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Stability {
+    /// Rows of the deformation gradient; the unit tensor unless given.
+    pub deformation: Option<Vec<Vec<f64>>>,
+    /// By how much bonds with a part along each axis are weakened, from 0, whole, to 1, cut.
+    pub damage: Option<Coordinates>,
+    /// The gradient correction stays that of whole bonds.
+    pub whole_correction: bool,
 }

@@ -19,6 +19,7 @@ mod resolve;
 mod section;
 pub mod shape;
 mod state;
+pub mod study;
 mod surfaces;
 mod words;
 

@@ -43,6 +43,9 @@ pub fn run(request: &Request, mut tell: impl FnMut(&str)) -> Result<String, Stop
     let path = request.out.clone().unwrap_or_else(|| format!("out/study/{}-sweep.csv", scene.label()).into());
     let header: Vec<String> = matrix.paths.iter().cloned().chain(names.iter().cloned()).collect();
     let mut rows = begin(&path, &line(&header)).map_err(Stop::Refused)?;
+    if let Some((count, reason)) = &matrix.left_out {
+        tell(&format!("{count} settings are left out, the first because {reason}"));
+    }
     for setting in &matrix.settings {
         let key = line(&setting.shown);
         if rows.iter().any(|row| row.starts_with(&format!("{key},"))) {

@@ -8,19 +8,28 @@
 //! Write o = X_b - X_a, V = dx^D, g = grad_a W(|o|), H = grad grad W. The sums over the lattice (`Sums`) are
 //! Gamma = V sum sin(k.o) g, H = V sum (1 - cos(k.o)) H(o) and, for the adjoint form, the change of the moment
 //! matrix K_a = sum V_b x_ba (x) g_ab, which comes from positions and from the neighbours' volumes. The artificial
-//! stress has its own Gamma and H, of the potential that (W/W(dp))^n g belongs to.
+//! stress has its own Gamma and H, of the potential that (W/W(dp))^n g belongs to. With XSPH positions move by the
+//! part 1 - weight V sum (1 - cos(k.o)) W of what density and stress are integrated from.
+//!
+//! Monaghan's viscosity is not in A but beside it ([`Viscous`]); [`Lagrangian`] is the same for the Total Lagrangian formulation.
 //!
 //! Sources: Swegle, Hicks & Attaway 1995 (the criterion W'' sigma > 0); Monaghan 2000 and Gray, Monaghan & Swift
 //! 2001 (artificial stress, scalar and principal).
 
+mod lagrangian;
 mod lattice;
+mod viscous;
+mod waves;
 
+pub use lagrangian::{Damage, Elastic, Lagrangian};
+pub(in crate::study) use lattice::second_derivative;
 pub use lattice::{Lattice, fixed_wave_vectors, periodic_wave_vectors};
+pub use viscous::Viscous;
+pub use waves::{Mode, Waves, by_growth};
 
-use super::eigen::{Eigenpair, eigenpairs, principal};
+use super::eigen::principal;
 use glam::{DMat3, DVec3};
 use lattice::{Pair, pairs};
-use rayon::prelude::*;
 
 /// State and elasticity of the medium; P = K (rho/rho0 - 1).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +98,13 @@ pub enum ArtificialStress {
         exponent: f64,
         spacing: f64,
     },
+    /// R_a = epsilon P_a/rho_a^2 times the unit tensor whatever the sign of P_a: repels in tension and attracts in
+    /// compression; with a negative epsilon the other way round.
+    Signed {
+        epsilon: f64,
+        exponent: f64,
+        spacing: f64,
+    },
 }
 
 impl ArtificialStress {
@@ -96,7 +112,9 @@ impl ArtificialStress {
     fn shape(self) -> Option<(f64, f64)> {
         match self {
             Self::None => None,
-            Self::Scalar { exponent, spacing, .. } | Self::Principal { exponent, spacing, .. } => Some((exponent, spacing)),
+            Self::Scalar { exponent, spacing, .. }
+            | Self::Principal { exponent, spacing, .. }
+            | Self::Signed { exponent, spacing, .. } => Some((exponent, spacing)),
         }
     }
 }
@@ -112,19 +130,6 @@ pub enum Gradient {
     Adjoint,
 }
 
-/// One plane wave's fastest growing motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mode {
-    /// Growth rate, 1/time; 0 where the wave is stable.
-    pub rate: f64,
-    /// Angular frequency; 0 for growth without oscillation.
-    pub frequency: f64,
-    /// Unit vector of the displacement (real part of the eigenvector).
-    pub polarisation: [f64; 3],
-    /// Imaginary part of the eigenvector: the part that moves a quarter of a period away. Mostly zero.
-    pub quadrature: [f64; 3],
-}
-
 /// The sums over the lattice for one wave vector.
 #[derive(Debug)]
 struct Sums {
@@ -136,6 +141,8 @@ struct Sums {
     moment: DMat3,
     /// V sum sin(k.o) o (x) H e_l for the three axes l.
     moment_slope: [DMat3; 3],
+    /// Velocity that moves a particle over its own velocity: below one with XSPH.
+    moves: f64,
 }
 
 impl Sums {
@@ -147,6 +154,7 @@ impl Sums {
         repulsion_hessian: DMat3::ZERO,
         moment: DMat3::ZERO,
         moment_slope: [DMat3::ZERO; 3],
+        moves: 1.0,
     };
 }
 
@@ -157,6 +165,7 @@ pub struct Equations {
     medium: Medium,
     artificial_stress: ArtificialStress,
     gradient: Gradient,
+    xsph: f64,
     pairs: Vec<Pair>,
     /// K = kappa 1 on the lattice.
     kappa: f64,
@@ -169,7 +178,7 @@ impl Equations {
         let pairs = pairs(&lattice, artificial_stress);
         let kappa = pairs.iter().map(|pair| pair.offset.dot(pair.gradient)).sum::<f64>() / lattice.dimension as f64;
         let stress = medium.stress(lattice.dimension);
-        Self { lattice, medium, artificial_stress, gradient, pairs, kappa, stress, principal: principal(stress) }
+        Self { lattice, medium, artificial_stress, gradient, xsph: 0.0, pairs, kappa, stress, principal: principal(stress) }
     }
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
@@ -178,53 +187,15 @@ impl Equations {
         &self.medium
     }
 
-    /// A(k), in 1/time^2: displacements xi exp(i k.X) accelerate as A xi exp(i k.X). Rows and columns beyond the
-    /// dimension are zero.
-    pub fn stiffness(&self, k: [f64; 3]) -> DMat3 {
-        let sums = self.sums(DVec3::from(k));
-        let column = |axis: usize| {
-            if axis < self.lattice.dimension { self.acceleration(&sums, axis) } else { DVec3::ZERO }
-        };
-        DMat3::from_cols(column(0), column(1), column(2))
-    }
-
-    /// Largest Re sqrt(lambda) of A(k), 1/time; zero where the wave is stable.
-    pub fn growth_rate(&self, k: [f64; 3]) -> f64 {
-        self.eigenpairs(k).map(|pair| pair.square_root()[0]).fold(0.0, f64::max)
-    }
-
-    /// The fastest growing motion of the wave; of stable ones the slowest.
-    pub fn mode(&self, k: [f64; 3]) -> Mode {
-        self.eigenpairs(k)
-            .filter(|pair| pair.value[1] >= 0.0)
-            .map(|pair| {
-                let [rate, frequency] = pair.square_root();
-                let (polarisation, quadrature) = (pair.vector.into(), pair.imaginary.into());
-                Mode { rate, frequency: frequency.abs(), polarisation, quadrature }
-            })
-            .max_by(|a, b| a.rate.total_cmp(&b.rate).then(b.frequency.total_cmp(&a.frequency)))
-            .expect("a lattice has at least one dimension")
-    }
-
-    /// The wave vector of the largest growth rate, and that rate.
-    pub fn fastest(&self, wave_vectors: &[[f64; 3]]) -> ([f64; 3], f64) {
-        wave_vectors.par_iter().map(|&k| (k, self.growth_rate(k))).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(([0.0; 3], 0.0))
-    }
-
-    /// Largest |Im sqrt(lambda)|, 1/time: leapfrog is stable for time steps below 2 over it.
-    pub fn largest_frequency(&self, wave_vectors: &[[f64; 3]]) -> f64 {
-        wave_vectors
-            .par_iter()
-            .map(|&k| self.eigenpairs(k).map(|pair| pair.square_root()[1].abs()).fold(0.0, f64::max))
-            .reduce(|| 0.0, f64::max)
-    }
-
-    fn eigenpairs(&self, k: [f64; 3]) -> impl Iterator<Item = Eigenpair> {
-        eigenpairs(self.stiffness(k), self.lattice.dimension).into_iter()
+    /// The same where particles move with the smoothed velocity v_a + weight sum V_b (v_b - v_a) W_ab.
+    pub fn with_xsph(self, weight: f64) -> Self {
+        Self { xsph: weight, ..self }
     }
 
     fn sums(&self, k: DVec3) -> Sums {
         let mut sums = Sums::ZERO;
+        let smoothing: f64 = self.pairs.iter().map(|pair| pair.value * (1.0 - k.dot(pair.offset).cos())).sum();
+        sums.moves = 1.0 - self.xsph * smoothing;
         let artificial = self.artificial_stress != ArtificialStress::None;
         for pair in &self.pairs {
             let (sin, cos) = k.dot(pair.offset).sin_cos();
@@ -245,6 +216,7 @@ impl Equations {
     }
 
     /// Column of A: the acceleration for xi along one axis. Rates carry a factor i, which meets the one of Gamma.
+    /// Density and stress follow the velocities themselves, whose integral xi is, positions the smoothed ones.
     fn acceleration(&self, sums: &Sums, axis: usize) -> DVec3 {
         let xi = DVec3::AXES[axis];
         let correction = if self.gradient == Gradient::Plain { 1.0 } else { 1.0 / self.kappa };
@@ -254,7 +226,7 @@ impl Equations {
         // (stress, its rate) K^-1 in the adjoint form, bare in the others.
         let (held, mut rate) = match self.gradient {
             Gradient::Adjoint => {
-                let moment_rate = outer(xi, sums.gradient) - sums.moment_slope[axis] + sums.moment * dilation;
+                let moment_rate = (outer(xi, sums.gradient) - sums.moment_slope[axis]) * sums.moves + sums.moment * dilation;
                 let inverse = 1.0 / self.kappa;
                 (self.stress * inverse, stress_rate * inverse - self.stress * moment_rate * (inverse * inverse))
             }
@@ -262,10 +234,11 @@ impl Equations {
         };
         // The density in sigma/rho^2 (adjoint: in the neighbours' volumes) falls with dilation.
         rate += held * (2.0 * dilation);
-        let mut force = held * sums.hessian.col(axis) * 2.0 - rate * sums.gradient;
+        let mut force = held * sums.hessian.col(axis) * (2.0 * sums.moves) - rate * sums.gradient;
         if self.artificial_stress != ArtificialStress::None {
             let (held, rate) = self.repulsion(stress_rate, dilation);
-            force += held * sums.repulsion_hessian.col(axis) * 2.0 - (rate + held * (2.0 * dilation)) * sums.repulsion;
+            let moved = held * sums.repulsion_hessian.col(axis) * (2.0 * sums.moves);
+            force += moved - (rate + held * (2.0 * dilation)) * sums.repulsion;
         }
         force / self.medium.density
     }
@@ -274,10 +247,8 @@ impl Equations {
     fn repulsion(&self, stress_rate: DMat3, dilation: f64) -> (DMat3, DMat3) {
         let medium = &self.medium;
         match self.artificial_stress {
-            ArtificialStress::Scalar { epsilon, .. } if medium.pressure() < 0.0 => {
-                let pressure_rate = -medium.bulk_modulus * medium.density / medium.reference_density * dilation;
-                (DMat3::IDENTITY * (epsilon * medium.pressure()), DMat3::IDENTITY * (epsilon * pressure_rate))
-            }
+            ArtificialStress::Scalar { epsilon, .. } if medium.pressure() < 0.0 => self.share_of_pressure(epsilon, dilation),
+            ArtificialStress::Signed { epsilon, .. } => self.share_of_pressure(epsilon, dilation),
             ArtificialStress::Principal { epsilon, .. } => {
                 let (values, axes) = self.principal;
                 let tensile = DMat3::from_diagonal(values.max(DVec3::ZERO));
@@ -293,6 +264,26 @@ impl Equations {
             }
             _ => (DMat3::ZERO, DMat3::ZERO),
         }
+    }
+    /// epsilon P and its rate.
+    fn share_of_pressure(&self, epsilon: f64, dilation: f64) -> (DMat3, DMat3) {
+        let medium = &self.medium;
+        let rate = -medium.bulk_modulus * medium.density / medium.reference_density * dilation;
+        (DMat3::IDENTITY * (epsilon * medium.pressure()), DMat3::IDENTITY * (epsilon * rate))
+    }
+}
+
+impl Waves for Equations {
+    fn dimension(&self) -> usize {
+        self.lattice.dimension
+    }
+
+    fn stiffness(&self, k: [f64; 3]) -> DMat3 {
+        let sums = self.sums(DVec3::from(k));
+        let column = |axis: usize| {
+            if axis < self.lattice.dimension { self.acceleration(&sums, axis) } else { DVec3::ZERO }
+        };
+        DMat3::from_cols(column(0), column(1), column(2))
     }
 }
 

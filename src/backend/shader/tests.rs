@@ -270,7 +270,7 @@ fn every_file_of_the_library_is_listed() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders").join(folder);
         let files = std::fs::read_dir(path).unwrap().map(|file| file.unwrap().path());
         for stem in files.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()) {
-            assert!(LIBRARY.iter().any(|(f, s, _)| *f == folder && *s == stem), "{folder}/{stem}.wgsl");
+            assert!(LIBRARY.iter().any(|file| file.folder == folder && file.stem == stem), "{folder}/{stem}.wgsl");
         }
     }
 }

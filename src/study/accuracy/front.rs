@@ -1,6 +1,7 @@
 //! Which settings are worth their cost.
 
-use super::row::{OK, Row};
+use super::measure::Measures;
+use super::row::{Cost, Row};
 
 /// An expectation whose error a study measures.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +14,7 @@ pub struct Expected {
 #[derive(Debug, Clone)]
 pub struct Best<'a> {
     pub row: &'a Row,
-    /// One number for all expectations; see [`worst`].
+    /// The one that settings are judged by; see [`Measures`].
     pub error: Option<f64>,
     /// No other setting is cheaper and as accurate, or as cheap and more accurate.
     pub on_front: bool,
@@ -41,20 +42,31 @@ pub fn worst(errors: &[Option<f64>], expected: &[Expected]) -> Option<f64> {
 }
 
 /// The cheapest finished row of each setting and backend, by rising cost.
-pub fn best<'a>(rows: &'a [Row], expected: &[Expected]) -> Vec<Best<'a>> {
-    let seconds = |row: &Row| row.cpu_seconds().unwrap_or(f64::INFINITY);
+pub fn best<'a>(rows: &'a [Row], measures: &Measures, cost: Cost) -> Vec<Best<'a>> {
+    let price = |row: &Row| row.cost_of(cost).unwrap_or(f64::INFINITY);
     let mut cheapest: Vec<&Row> = Vec::new();
-    for row in rows.iter().filter(|row| row.status == OK) {
+    for row in rows.iter().filter(|row| row.cost.is_some()) {
         match cheapest.iter_mut().find(|other| other.subject() == row.subject()) {
-            Some(other) if seconds(row) < seconds(other) => *other = row,
+            Some(other) if price(row) < price(other) => *other = row,
             Some(_) => {}
             None => cheapest.push(row),
         }
     }
-    cheapest.sort_by(|a, b| seconds(a).total_cmp(&seconds(b)));
-    let errors: Vec<Option<f64>> = cheapest.iter().map(|row| worst(&row.errors, expected)).collect();
-    let point = |(row, error): (&&Row, &Option<f64>)| (seconds(row), error.unwrap_or(f64::NAN));
+    cheapest.sort_by(|a, b| price(a).total_cmp(&price(b)));
+    let errors: Vec<Option<f64>> = cheapest.iter().map(|row| measures.error(row)).collect();
+    let point = |(row, error): (&&Row, &Option<f64>)| (price(row), error.unwrap_or(f64::NAN));
     let marks = front(&cheapest.iter().zip(&errors).map(point).collect::<Vec<_>>());
     let each = cheapest.into_iter().zip(errors).zip(marks);
     each.map(|((row, error), on_front)| Best { row, error, on_front }).collect()
+}
+
+/// The cheapest setting with no larger an error, of those that [`best`] found.
+pub fn cheapest<'a, 'b>(best: &'b [Best<'a>], error: f64) -> Option<&'b Best<'a>> {
+    best.iter().find(|best| best.error.is_some_and(|found| found <= error))
+}
+
+/// The most accurate setting, of those that [`best`] found.
+pub fn most_accurate<'a, 'b>(best: &'b [Best<'a>]) -> Option<&'b Best<'a>> {
+    let error = |best: &Best| best.error.unwrap_or(f64::INFINITY);
+    best.iter().filter(|best| best.error.is_some()).min_by(|a, b| error(a).total_cmp(&error(b)))
 }

@@ -2,13 +2,20 @@
 //! setting, the error against what the scene expects, and what it took.
 //!
 //! An error is what the scene's own tolerance bounds ([`check::error`]): a fraction where the expectation is
-//! `relative`, else in the observable's unit. The rows of a file are not run again, so that the same command goes on
+//! `relative`, else in the observable's unit. Beside it stand fractions ([`Kind`]), by one of which settings are judged:
+//! on a chart of error against cost, in the table of the cheapest for each error, and where one is recommended. The rows of a file are not run again, so that the same command goes on
 //! where a kill left it. A run that failed has its row too.
 
+pub(super) mod axis;
+mod chart;
 mod front;
+mod kind;
 pub(super) mod matrix;
-mod report;
-mod row;
+mod measure;
+mod names;
+mod recommend;
+pub(super) mod report;
+pub(super) mod row;
 pub(super) mod source;
 pub(super) mod table;
 mod usual;
@@ -20,14 +27,20 @@ use crate::backend::{Choice, device};
 use crate::check;
 use crate::run::{self, Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
-use front::Expected;
-use matrix::{Matrix, Setting, one_line};
+use axis::one_line;
+use matrix::{Matrix, Setting, VARIANT};
+use measure::Measures;
 use report::Progress;
-use row::{OK, Row};
-use source::{Source, expected};
-use std::path::PathBuf;
+use row::Row;
+use source::Source;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use table::{Header, Table};
+
+pub use kind::Kind;
+pub use recommend::parse_error;
+pub use row::Cost;
 
 /// What the command line asks of a study.
 #[derive(Debug, Clone, Default)]
@@ -38,8 +51,10 @@ pub struct Request {
     pub vary: Vec<String>,
     /// Each of [`Choice::Cpu`], [`Choice::Cpu32`], [`Choice::Gpu`].
     pub backends: Vec<Choice>,
-    /// The only expectation whose error is measured; all unless given.
+    /// The expectation by whose error settings are judged; see [`Measures`].
     pub observable: Option<String>,
+    /// By which of its fractions settings are judged; by the expectation's own norm unless given.
+    pub kind: Option<Kind>,
     pub repeats: u32,
     /// `out/study/SCENE[-VARIANT]-accuracy.csv` unless given.
     pub out: Option<PathBuf>,
@@ -49,13 +64,17 @@ pub struct Request {
 /// A study that can begin: every setting is a scene, every reference there.
 pub struct Study {
     source: Source,
+    /// The first variant that runs, without overrides: what it expects is measured.
+    base: Scene,
     matrix: Matrix,
-    expected: Vec<Expected>,
+    measures: Measures,
     header: Header,
     /// In the order of their runs.
     jobs: Vec<Job>,
     label: String,
     file: PathBuf,
+    /// Of the pictures and the page.
+    stem: PathBuf,
     force: bool,
 }
 
@@ -71,17 +90,27 @@ impl Study {
     pub fn plan(request: &Request) -> Result<Self, String> {
         let source = Source::new(request.scene.clone(), request.variant.clone())?;
         let scene = source.open(&[])?;
-        let expected = expected(&scene, request.observable.as_deref())?;
-        check::references(&scene, source.folder())?;
         let matrix = Matrix::new(&request.vary, &source.read()?, |overrides| source.open(overrides))?;
+        if request.variant.is_some() && matrix.paths.iter().any(|path| path == VARIANT) {
+            return Err("the matrix goes over the scene's variants: leave --variant out, or name other axes with --vary".into());
+        }
+        let base = match matrix.settings.first().and_then(Setting::variant) {
+            Some(variant) => source.open(&[variant])?,
+            None => scene.clone(),
+        };
+        let measures = Measures::new(&base, request.observable.as_deref(), request.kind)?;
+        check::references(&base, source.folder())?;
         if request.backends.iter().any(|choice| matches!(choice, Choice::Gpu(_))) {
             device::choose(device::Want::Gpu, None)?;
         }
-        let columns = row::columns(&matrix.paths, expected.iter().map(|expected| expected.name.as_str()));
-        let header = Header { stamp: source.stamp(&scene)?, columns, errors: expected.len() };
+        let errors = measures.columns();
+        let count = errors.len();
+        let header =
+            Header { stamp: source.stamp("accuracy", &scene)?, columns: row::columns(&matrix.paths, errors), errors: count };
         let (label, jobs) = (scene.label(), jobs(&matrix.settings, &request.backends, request.repeats));
         let file = request.out.clone().unwrap_or_else(|| format!("out/study/{label}-accuracy.csv").into());
-        Ok(Self { source, matrix, expected, header, jobs, label, file, force: request.force })
+        let stem = stem(&file, request);
+        Ok(Self { source, base, matrix, measures, header, jobs, label, file, stem, force: request.force })
     }
 
     /// What is about to run.
@@ -95,12 +124,21 @@ impl Study {
         }
     }
 
-    /// Runs what the file lacks; gives the table for the end.
+    /// Runs what the file lacks; draws the charts beside it; gives the table for the end.
     ///
     /// # Errors
     /// The file is of another study or cannot be written, or the user stops the study. A run that fails is a row.
     pub fn run(&self) -> Result<String, Stop> {
-        let wanted = self.jobs.iter().map(|job| job.key.clone()).collect();
+        let rows = self.rows()?;
+        let told = chart::Told { title: &self.base.file.title, paths: &self.matrix.paths, measures: &self.measures, rows: &rows };
+        let drawn = told.write(&self.stem).map_err(Stop::Failed)?;
+        Ok(format!("{}{drawn}", report::text(&self.matrix.paths, &self.measures, &rows)))
+    }
+
+    /// Runs what the file lacks; gives all rows.
+    fn rows(&self) -> Result<Vec<Row>, Stop> {
+        let keys: HashSet<&Vec<String>> = self.jobs.iter().map(|job| &job.key).collect();
+        let wanted = |row: &Row| keys.contains(&row.key);
         let mut table = Table::open(&self.file, &self.header, &wanted, self.force).map_err(Stop::Refused)?;
         let mut progress = Progress::new(self.jobs.len(), table.rows.len());
         for job in &self.jobs {
@@ -110,7 +148,7 @@ impl Study {
             let Some(row) = self.row(job)? else { return Err(self.interrupted(table.rows.len())) };
             progress.tell(table.append(row).map_err(Stop::Failed)?);
         }
-        Ok(report::text(&self.matrix.paths, &self.expected, &table.rows))
+        Ok(table.rows)
     }
 
     /// Runs a job; `None` where the user stops it.
@@ -128,27 +166,28 @@ impl Study {
             Err(Stop::Failed(reason) | Stop::Refused(reason)) => Some(Row {
                 key: job.key.clone(),
                 cost: None,
-                errors: vec![None; self.expected.len()],
+                errors: vec![None; self.header.errors],
                 status: format!("failed: {}", one_line(&reason)),
             }),
         })
     }
 
     fn finished(&self, key: Vec<String>, scene: &Scene, finished: &Finished) -> Row {
-        let error = |expected: &Expected| match scene.file.expect.get(&expected.name) {
-            Some(expect) => check::error(scene, finished, self.source.folder(), &expected.name, expect),
-            None => Err(format!("{}: this setting takes it away", expected.name)),
-        };
-        let errors: Vec<Result<f64, String>> = self.expected.iter().map(error).collect();
-        let wrong = errors.iter().find_map(|error| error.as_ref().err());
-        let status = wrong.map_or_else(|| OK.to_string(), |reason| format!("no error: {}", one_line(reason)));
-        Row { key, cost: Some(row::cost(finished)), errors: errors.into_iter().map(Result::ok).collect(), status }
+        let (errors, status) = self.measures.measure(scene, &self.base, finished, self.source.folder());
+        Row { key, cost: Some(row::cost(finished)), errors, status }
     }
 
     fn interrupted(&self, rows: usize) -> Stop {
         let (runs, file) = (self.jobs.len(), self.file.display());
         Stop::Interrupted(format!("interrupted with {rows} of {runs} runs in {file}; the same command goes on from there"))
     }
+}
+
+/// That of the CSV, and by what settings are judged where it was asked for.
+fn stem(file: &Path, request: &Request) -> PathBuf {
+    let stem = file.file_stem().unwrap_or_default().display().to_string();
+    let judged = request.observable.clone().into_iter().chain(request.kind.map(|kind| kind.word().to_string()));
+    file.with_file_name([stem].into_iter().chain(judged).collect::<Vec<_>>().join("-"))
 }
 
 /// Each setting on each backend once, then again: what slows the machine for a while falls on all alike.

@@ -12,6 +12,29 @@ pub const RUN: [&str; 3] = ["backend", "precision", "repeat"];
 pub const COST: [&str; 8] =
     ["particles", "steps", "force_evaluations", "particle_updates", "cpu_seconds", "wall_seconds", "bytes", "bytes_per_particle"];
 
+/// What a setting is judged by beside its error; as places under [`COST`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Cost {
+    ForceEvaluations = 2,
+    /// Particles times force evaluations: the same on every machine.
+    ParticleUpdates = 3,
+    CpuSeconds = 4,
+    WallSeconds = 5,
+    Bytes = 6,
+}
+
+impl Cost {
+    /// Name of its column.
+    pub fn word(self) -> &'static str {
+        COST[self as usize]
+    }
+
+    /// As text has it.
+    pub fn about(self) -> String {
+        self.word().replace('_', " ").replace("particle updates", "particle-updates").replace("cpu", "CPU")
+    }
+}
+
 /// Status of a run that came to its end.
 pub const OK: &str = "ok";
 
@@ -39,9 +62,8 @@ pub fn key(setting: &Setting, choice: &Choice, repeat: u32) -> Vec<String> {
 }
 
 /// Names of all columns.
-pub fn columns<'a>(paths: &[String], expected: impl Iterator<Item = &'a str>) -> Vec<String> {
+pub fn columns(paths: &[String], errors: Vec<String>) -> Vec<String> {
     let numbers = RUN.iter().chain(&COST).map(|name| (*name).to_string());
-    let errors = expected.map(|name| format!("error_{name}"));
     paths.iter().cloned().chain(numbers).chain(errors).chain(["status".to_string()]).collect()
 }
 
@@ -67,8 +89,8 @@ impl Row {
         &self.key[..self.key.len() - 1]
     }
 
-    pub fn cpu_seconds(&self) -> Option<f64> {
-        self.cost.map(|cost| cost[4])
+    pub fn cost_of(&self, cost: Cost) -> Option<f64> {
+        self.cost.map(|all| all[cost as usize])
     }
 
     pub fn cells(&self) -> Vec<String> {

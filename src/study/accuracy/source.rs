@@ -1,10 +1,9 @@
 //! The scene of a study: its text, what it expects, and what its errors hang on.
 
-use super::front::Expected;
-use crate::check;
+use super::matrix::{NONE, VARIANT};
 use crate::scene::Scene;
-use crate::scene::file::Expect;
-use crate::scene::read::{self, Read, hint};
+use crate::scene::read::{self, Read};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The scene's text as it was when the study began: what is typed into the file later does not count.
@@ -21,43 +20,55 @@ impl Source {
 
     /// As typed, with its lines.
     pub fn read(&self) -> Result<Read, String> {
-        read::read_text(&self.text, &self.path.display().to_string(), self.variant.as_deref(), &[])
+        self.read_with(&[])
     }
 
+    /// The same with overrides.
+    pub fn read_with(&self, overrides: &[String]) -> Result<Read, String> {
+        read::read_text(&self.text, &self.path.display().to_string(), self.variant.as_deref(), overrides)
+    }
+
+    /// The scene with overrides, of which `variant` chooses another variant.
     pub fn open(&self, overrides: &[String]) -> Result<Scene, String> {
-        Scene::open_text(&self.text, &self.path, self.variant.as_deref(), overrides)
+        let (variant, overrides) = self.chosen(overrides);
+        Scene::open_text(&self.text, &self.path, variant.as_deref(), &overrides)
+    }
+
+    /// Variant and overrides of a setting.
+    pub fn chosen(&self, overrides: &[String]) -> (Option<String>, Vec<String>) {
+        let word = |text: &String| text.strip_prefix(VARIANT)?.strip_prefix('=').map(|word| word.trim_matches('"').to_string());
+        let variant = match overrides.iter().find_map(word) {
+            Some(word) => Some(word).filter(|word| word != NONE),
+            None => self.variant.clone(),
+        };
+        (variant, overrides.iter().filter(|text| word(text).is_none()).cloned().collect())
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new("."))
     }
 
-    /// Version, scene, and a hash of the scene's text and its references: what has another stamp does not compare.
-    pub fn stamp(&self, scene: &Scene) -> Result<String, String> {
+    /// Version, study, scene, and a hash of the scene's text and its references: what has another stamp does not compare.
+    pub fn stamp(&self, study: &str, scene: &Scene) -> Result<String, String> {
         let mut hash = fnv(self.text.as_bytes(), FNV_BASIS);
-        for reference in scene.file.expect.values().filter_map(|expect| expect.reference.as_ref()) {
+        for reference in references(scene) {
             hash = fnv(read::text_of(&self.folder().join(reference))?.as_bytes(), hash);
         }
         let (version, label) = (env!("CARGO_PKG_VERSION"), scene.label());
-        Ok(format!("{version} study accuracy: {label}, scene and references {hash:016x}"))
+        Ok(format!("{version} study {study}: {label}, scene and references {hash:016x}"))
     }
 }
 
-/// Expectations with a value or a reference that hold for the scene's variant; one of them where it is named.
-pub fn expected(scene: &Scene, only: Option<&str>) -> Result<Vec<Expected>, String> {
-    let known = scene.file.expect.iter().filter(|(_, expect)| check::applies(scene, expect));
-    let known = known.filter(|(_, expect)| expect.value.is_some() || expect.reference.is_some());
-    let expected = |(name, expect): (&String, &Expect)| Expected { name: name.clone(), tolerance: expect.tolerance };
-    let all: Vec<Expected> = known.map(expected).collect();
-    let names: Vec<&str> = all.iter().map(|expected| expected.name.as_str()).collect();
-    match only {
-        _ if all.is_empty() => {
-            Err(format!("{} expects no value and names no reference, so that there is no error", scene.label()))
-        }
-        None => Ok(all),
-        Some(name) if names.contains(&name) => Ok(all.into_iter().filter(|expected| expected.name == name).collect()),
-        Some(name) => Err(format!("--observable {name}: no expectation with a value or a reference{}", hint(name, &names))),
-    }
+/// References of the scene and of its variants, each once.
+fn references(scene: &Scene) -> BTreeSet<String> {
+    let own = scene.file.expect.values().filter_map(|expect| expect.reference.clone());
+    let expects = scene.file.variant.values().filter_map(|variant| variant.get("expect")?.as_table());
+    let theirs = expects.flat_map(|expects| expects.values()).filter_map(|expect| expect.get("reference")?.as_str());
+    own.chain(theirs.filter(|name| *name != NONE).map(str::to_string)).collect()
 }
 
 /// A hash that is the same on every machine and with every compiler.

@@ -4,7 +4,6 @@
 //! end of a study keeps the cheapest of them.
 
 use super::row::Row;
-use std::collections::HashSet;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -60,7 +59,7 @@ impl Table {
     ///
     /// # Errors
     /// One sentence where the file is of another study, holds a run that is not `wanted`, or cannot be written.
-    pub fn open(path: &Path, header: &Header, wanted: &HashSet<Vec<String>>, force: bool) -> Result<Self, String> {
+    pub fn open(path: &Path, header: &Header, wanted: &dyn Fn(&Row) -> bool, force: bool) -> Result<Self, String> {
         let failed = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
         let found = existing(path)?;
         let text = if force { String::new() } else { found };
@@ -108,8 +107,8 @@ fn existing(path: &Path) -> Result<String, String> {
 }
 
 /// A longer matrix goes on with a shorter one's rows; a shorter one would mix its table with runs that it does not name.
-fn refuse_other_runs(path: &Path, rows: &[(usize, Row)], wanted: &HashSet<Vec<String>>) -> Result<(), String> {
-    let Some((number, row)) = rows.iter().find(|(_, row)| !wanted.contains(&row.key)) else { return Ok(()) };
+fn refuse_other_runs(path: &Path, rows: &[(usize, Row)], wanted: &dyn Fn(&Row) -> bool) -> Result<(), String> {
+    let Some((number, row)) = rows.iter().find(|(_, row)| !wanted(row)) else { return Ok(()) };
     let key = row.key.join(", ");
     let place = path.display();
     Err(format!("{place}:{number}: {key} is not in this matrix; --force overwrites the file, --out names another"))

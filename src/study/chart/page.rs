@@ -38,7 +38,7 @@ body { margin: 0 auto; max-width: 1140px; padding: 16px; background: #fff; color
   font: 16px/1.5 system-ui, 'DejaVu Sans', sans-serif; }
 h1 { font-size: 1.6rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin: 2rem 0 .5rem; }
 p { max-width: 46rem; overflow-wrap: anywhere; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 16px; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 460px), 1fr)); gap: 16px; }
 figure { margin: 0; } figure svg, figure img { display: block; width: 100%; height: auto; }
 figure { border: 1px solid #e4e7ea; border-radius: 6px; overflow: hidden; }
 figcaption { padding: 4px 12px 8px; font-size: .9rem; color: #5c626a; }

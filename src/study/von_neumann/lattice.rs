@@ -22,6 +22,8 @@ pub struct Lattice {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub offset: DVec3,
+    /// W.
+    pub value: f64,
     pub gradient: DVec3,
     pub hessian: DMat3,
     /// f^n, and the Hessian of the artificial stress's pair potential.
@@ -54,6 +56,7 @@ pub(super) fn pairs(lattice: &Lattice, artificial_stress: ArtificialStress) -> V
         });
         pairs.push(Pair {
             offset,
+            value: smoothing.value(r, h, dimension) * weight,
             gradient: normal * (-slope * weight),
             hessian: hessian * weight,
             repulsion,
@@ -65,7 +68,7 @@ pub(super) fn pairs(lattice: &Lattice, artificial_stress: ArtificialStress) -> V
 
 /// W''(r), from the slopes on either side of r: the mean of two one-sided differences of second order, which a knot
 /// of the kernel at r leaves exact, or the inner one alone at the end of the support.
-fn second_derivative(lattice: &Lattice, r: f64) -> f64 {
+pub(in crate::study) fn second_derivative(lattice: &Lattice, r: f64) -> f64 {
     let h = lattice.smoothing_length;
     let slope = |r: f64| lattice.smoothing.derivative(r, h, lattice.dimension);
     let one_sided = |step: f64| (4.0 * slope(r + step) - 3.0 * slope(r) - slope(r + 2.0 * step)) / (2.0 * step);

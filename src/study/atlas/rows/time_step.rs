@@ -4,7 +4,7 @@ use super::GROWTH;
 use crate::smoothing::Smoothing;
 use crate::study::atlas::side::text;
 use crate::study::atlas::{Bound, Row, Side, Text, Trace};
-use crate::study::von_neumann::{ArtificialStress, Equations, Gradient, Lattice, Medium, periodic_wave_vectors};
+use crate::study::von_neumann::{ArtificialStress, Equations, Gradient, Lattice, Medium, Waves as _, periodic_wave_vectors};
 
 const LATTICE: Text = text!("src/study/atlas/rows/ringing_lattice.toml");
 

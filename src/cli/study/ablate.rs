@@ -1,0 +1,63 @@
+//! Words of `lithosph study ablate`.
+
+use super::{PlaceWord, say};
+use crate::run::Stop;
+use crate::study::ablate;
+use clap::Args;
+use std::io::IsTerminal as _;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct AblateArgs {
+    scene: PathBuf,
+    #[arg(long)]
+    variant: Option<String>,
+    /// Overrides of the scene before it is taken apart.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Error allowed in place of the scene's tolerances: `1%` or `0.01`.
+    #[arg(long, value_parser = fraction)]
+    error: Option<f64>,
+    #[arg(long, value_enum, default_value = "cpu")]
+    backend: PlaceWord,
+    /// Runs of the scene and of each piece; the cheapest counts.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeats: u32,
+    /// The CSV; out/study/SCENE[-VARIANT]-ablate.csv unless given. Pictures and a page lie beside it.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Begin anew and overwrite the CSV.
+    #[arg(long)]
+    force: bool,
+}
+
+/// A positive fraction, typed as such or in percent.
+fn fraction(text: &str) -> Result<f64, String> {
+    let (digits, scale) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
+    let number = digits.trim().parse::<f64>().map(|number| scale * number);
+    number.ok().filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| "must be like `1%` or `0.01`".into())
+}
+
+pub fn ablate(args: &AblateArgs) -> Result<i32, Stop> {
+    let request = ablate::Request {
+        scene: args.scene.clone(),
+        variant: args.variant.clone(),
+        set: args.set.clone(),
+        choice: args.backend.choice(),
+        error: args.error,
+        repeats: args.repeats,
+        out: args.out.clone(),
+        force: args.force,
+    };
+    let study = ablate::Study::plan(&request).map_err(Stop::Refused)?;
+    say(&study.announcement());
+    let visible = std::io::stderr().is_terminal();
+    let tell = |line: &str| {
+        if visible {
+            eprintln!("{line}");
+        }
+    };
+    let found = study.run(tell)?;
+    say(&study.report(&found).map_err(Stop::Failed)?);
+    Ok(0)
+}
