@@ -8,7 +8,7 @@ const STRIP_SCENE: Text = text!("src/study/atlas/rows/tension.toml");
 
 pub static STRIP: Row = Row {
     name: "tensile_instability",
-    failure: "A strip is stretched by a twentieth and held. In the Eulerian formulation the lattice is unstable wherever W'' \
+    failure: "A strip is stretched by a seventeenth and held. In the Eulerian formulation the lattice is unstable wherever W'' \
               times the stress is positive: particles clump and the strip tears. In the Total Lagrangian formulation kernels \
               belong to the reference configuration, and nothing clumps.",
     source: "Swegle, Hicks & Attaway 1995; Belytschko et al. 2000",
