@@ -176,7 +176,7 @@ fn no_row_is_run_twice() {
     assert_eq!(second[..kept], first[..kept]);
     // Times differ from run to run, what is found does not.
     let numbers = |text: &str| {
-        let cells = text.lines().skip(2).map(|line| crate::study::accuracy::table::cells(line));
+        let cells = text.lines().skip(2).map(crate::study::accuracy::table::cells);
         let mut rows: Vec<_> = cells.map(|cells| (cells[1].clone(), cells[12..].to_vec())).collect();
         rows.retain(|(name, _)| !name.contains('+'));
         rows.sort();
