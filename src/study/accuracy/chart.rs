@@ -52,16 +52,17 @@ impl Told<'_> {
         let best = best(self.rows, self.measures, cost);
         let front: Vec<(&Row, [f64; 2])> =
             best.iter().filter(|best| best.on_front).filter_map(|best| self.at(best, cost)).collect();
+        let named = named(&front.iter().map(|(_, point)| point[1]).collect::<Vec<_>>());
+        let chosen = || front.iter().zip(&named).filter(|(_, named)| **named).map(|((row, _), _)| *row);
         // One name alone would say nothing by what differs.
-        let alone = front.len() < 2;
-        let short =
-            if alone { Names::new(self.paths, self.rows) } else { Names::new(self.paths, front.iter().map(|(row, _)| *row)) };
+        let short = if chosen().count() < 2 { Names::new(self.paths, self.rows) } else { Names::new(self.paths, chosen()) };
+        let label = |((row, _), named): (&(&Row, _), &bool)| if *named { short.of(row) } else { String::new() };
         let mut series = vec![Series {
             name: "Pareto front".into(),
             style: Style::Line,
             colour: 0,
             points: front.iter().map(|(_, point)| *point).collect(),
-            labels: front.iter().map(|(row, _)| short.of(row)).collect(),
+            labels: front.iter().zip(&named).map(label).collect(),
         }];
         let points = self.points(cost);
         for (row, point) in &points {
@@ -89,14 +90,14 @@ impl Told<'_> {
         point.iter().all(|number| *number > 0.0).then_some((best.row, point))
     }
 
-    /// What the chart does not show, and what all settings on the front have in common.
+    /// What the chart does not show, and what all settings with a name have in common.
     fn note(&self, shown: usize, common: &str) -> String {
         let hidden = self.rows.len() - shown;
         let runs = match hidden {
             0 => format!("{shown} runs"),
             _ => format!("{shown} runs; {hidden} more failed, or have no error or the error 0"),
         };
-        if common.is_empty() { runs } else { format!("{runs}; all on the front: {common}") }
+        if common.is_empty() { runs } else { format!("{runs}; all that are named: {common}") }
     }
 
     fn page(&self, charts: Vec<Picture>) -> Page {
@@ -142,6 +143,18 @@ impl Told<'_> {
         let text = if lines.is_empty() { vec!["Every run came to its end with all its errors.".into()] } else { lines };
         Section { heading: "Runs without an end or an error".into(), text, ..Section::default() }
     }
+}
+
+/// Which points of a front bear their names: the first, and each whose error is a tenth smaller than that of the one named
+/// before.
+pub fn named(errors: &[f64]) -> Vec<bool> {
+    let mut last = f64::INFINITY;
+    let gains = |error: &f64| {
+        let gains = *error <= 0.9 * last;
+        last = if gains { *error } else { last };
+        gains
+    };
+    errors.iter().map(gains).collect()
 }
 
 /// The first line as titles.
