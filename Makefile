@@ -35,8 +35,13 @@ browser: ## Make a report of each kind, small, and look at it in headless Chromi
 	@.ci/setup browser
 	cargo build --release
 	@rm -rf target/browser
-	cargo run --release --quiet -- study accuracy scenes/rod_impact.toml --vary time.cfl=0.2,0.4 --out target/browser/accuracy.csv
-	python3 tests/report_in_browser.py target/browser/*.html
+	cargo run --release --quiet -- study accuracy scenes/sheared_plate.toml --vary time.cfl=0.2,0.4 --out target/browser/accuracy.csv
+	cargo run --release --quiet -- study stability scenes/tension_square.toml --simulate 4 --out target/browser/stability.csv
+	cargo run --release --quiet -- study atlas tensile_instability contact_zones --out target/browser/atlas
+	cargo run --release --quiet -- study tensile partition edge --out target/browser/tensile
+	cargo run --release --quiet -- study ablate scenes/sheared_plate.toml --out target/browser/ablate.csv
+	cargo run --release --quiet -- study cost scenes/rod_impact.toml --out target/browser/cost.csv
+	python3 tests/report_in_browser.py $$(find target/browser -name '*.html' | sort)
 
 verify: ## Run every scene, compare with what it expects, write docs/verification.txt
 	@.ci/setup build
