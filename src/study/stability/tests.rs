@@ -212,11 +212,13 @@ fn runs_do_as_theory_says() {
 }
 
 /// A correction made of the damaged bonds finds the gradient all the same, so that the body stays as stiff; one of
-/// whole bonds sees the part of the strain that the bonds still carry.
+/// whole bonds sees the part of the strain that the bonds still carry. An hourglass energy, whose fit is then not the
+/// gradient, would stiffen it again.
 #[test]
 fn weakened_bonds_soften_a_body_only_where_the_correction_is_that_of_whole_ones() {
     let speed = |overrides: &[&str]| {
-        let setting = setting(&[overrides, &["dimension=1", "study.stability.damage=[0.3]"]].concat());
+        let bare = ["dimension=1", "formulation.hourglass=0", "study.stability.damage=[0.3]"];
+        let setting = setting(&[overrides, &bare].concat());
         setting.mode([0.01, 0.0, 0.0]).frequency / 0.01 / setting.sound_speed()
     };
     assert!((speed(&[]) - 1.0).abs() < 1e-4);
