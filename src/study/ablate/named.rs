@@ -3,7 +3,7 @@
 use super::piece::{Piece, Sort, without, without_observables};
 use crate::material::Law;
 use crate::observable::{KINDS, fields_of_path};
-use crate::particles::Field;
+use crate::particles::{Field, Set};
 use crate::scene::Scene;
 use crate::scene::file::{Contact, File, Gradient, Integrator, Kind, Material, Observe};
 
@@ -107,9 +107,7 @@ impl Named<'_> {
                 let path = if laws.len() == 1 { format!("contact.{k}") } else { format!("contact.{k}.{law}") };
                 let rubs = *law == "gap" && frictions(contact).any(|(own, friction)| own == "gap" && friction > 0.0);
                 let mut overrides = if rubs { self.frictionless(without(&path)) } else { vec![without(&path)] };
-                if *law != "kernel" && self.energies() == 1 {
-                    overrides.extend(self.without_fields(&[Field::ContactEnergy]));
-                }
+                overrides.extend(self.without_fields(&self.touch(law)));
                 list.push(piece(format!("contact of `{a}` and `{b}` by {law}"), overrides));
             }
             for (law, _) in frictions(contact).filter(|(_, friction)| *friction > 0.0) {
@@ -122,9 +120,16 @@ impl Named<'_> {
         list
     }
 
-    /// Laws of contact that store energy.
-    fn energies(&self) -> usize {
-        self.file.contact.iter().map(stores).sum::<usize>() + self.file.obstacle.len()
+    /// Fields that only one law of contact has.
+    fn touch(&self, law: &str) -> Vec<Field> {
+        let contacts = &self.file.contact;
+        let faces = contacts.iter().filter(|contact| contact.gap.is_some()).count() + self.file.obstacle.len();
+        let energies = contacts.iter().map(stores).sum::<usize>() + self.file.obstacle.len();
+        let by_faces = ["gap", "obstacle"].contains(&law);
+        let last = (by_faces || ["potential", "colour_field"].contains(&law)) && energies == 1;
+        let energy = Some(Field::ContactEnergy).filter(|_| last);
+        let facets = Field::ALL.iter().copied().filter(|field| by_faces && faces == 1 && field.set() == Set::Facet);
+        facets.chain(energy).collect()
     }
 
     /// A change that ends one friction, and the sum of heat where nothing else makes any.
@@ -147,9 +152,7 @@ impl Named<'_> {
             let rubs = obstacle.friction > 0.0;
             let mut overrides = if rubs { self.frictionless(without(&path)) } else { vec![without(&path)] };
             overrides.extend(without_observables(self.file, |typed| typed.obstacle.as_ref() == Some(name)));
-            if self.energies() == 1 {
-                overrides.extend(self.without_fields(&[Field::ContactEnergy]));
-            }
+            overrides.extend(self.without_fields(&self.touch("obstacle")));
             list.push(piece(format!("obstacle `{name}`"), overrides));
             if rubs {
                 list.push(piece(format!("friction of obstacle `{name}`"), self.frictionless(format!("{path}.friction=0"))));
@@ -220,10 +223,10 @@ pub fn stores(contact: &Contact) -> usize {
     all.into_iter().filter(|on| *on).count()
 }
 
-/// Words of the laws of a contact.
+/// Words of the laws of a contact; beside another law the kernel is off, which is no law.
 fn laws(contact: &Contact) -> Vec<&'static str> {
     let all = [
-        ("kernel", contact.kernel.is_some()),
+        ("kernel", contact.kernel.is_some() && !contact.touches() && contact.gap.is_none()),
         ("potential", contact.potential.is_some()),
         ("gap", contact.gap.is_some()),
         ("colour_field", contact.colour_field.is_some()),

@@ -4,7 +4,7 @@ use super::named::{stores, without_fields};
 use super::piece::{Piece, Sort, without, without_observables};
 use super::plane;
 use crate::output::csv::shortest;
-use crate::particles::Field;
+use crate::particles::{Field, Set};
 use crate::scene::Scene;
 use crate::scene::file::{Body, File};
 use crate::scene::packing::Packing;
@@ -159,7 +159,12 @@ fn dropped(scene: &Scene, file: &File, body: &Body) -> Piece {
     overrides.extend(without_observables(file, |typed| typed.body.as_ref() == Some(name)));
     let left = file.contact.iter().filter(|contact| !contact.between.contains(name)).map(stores).sum::<usize>();
     if left == 0 && file.obstacle.is_empty() {
-        overrides.extend(without_fields(scene, file, &[Field::ContactEnergy]));
+        let facets = Field::ALL.iter().copied().filter(|field| field.set() == Set::Facet);
+        overrides.extend(without_fields(scene, file, &facets.chain([Field::ContactEnergy]).collect::<Vec<Field>>()));
+    }
+    let remembers = |body: &Body| file.material.get(&body.material).is_some_and(|material| material.law.has_memory());
+    if !file.body.iter().any(|other| other.name != *name && remembers(other)) {
+        overrides.extend(without_fields(scene, file, &[Field::InelasticStrain, Field::EquivalentPlasticStrain]));
     }
     reduction(format!("body `{name}`"), overrides)
 }
