@@ -180,7 +180,7 @@ fn a_scene_is_taken_apart() {
     let sandbox = bar("ablate");
     let ablate = |more: &[&str]| sandbox.lithosph(&[&["study", "ablate", "bar.toml"], more].concat());
     let said = ablate(&["--error", "0"]);
-    assert!(said.code == Some(2) && said.err.contains("must be like `1%` or `0.01`") && !sandbox.exists("out"), "{said:?}");
+    assert!(said.code == Some(2) && said.err.contains("a number above 0") && !sandbox.exists("out"), "{said:?}");
     let said = ablate(&["--error", "5%"]);
     assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
     assert!(said.out.contains("lithosph run bar.toml --set ") && said.out.contains("Smallest model of bar"), "{said:?}");
@@ -208,6 +208,13 @@ fn a_scene_tells_what_it_pays_for() {
     assert!(more.out.contains("smoothed_velocity: 1 x Particle") && more.out.contains("// smooth_velocity"), "{more:?}");
     let nowhere = sandbox.lithosph(&["study", "cost"]);
     assert!(nowhere.code == Some(2) && nowhere.err.contains("name scenes"), "{nowhere:?}");
+}
+
+#[test]
+fn limits_of_a_lattice_that_grows_are_refused_before_anything_is_written() {
+    let sandbox = bar("limits");
+    let said = sandbox.lithosph(&["study", "stability", "bar.toml", "--limits", "--set", "body.bar.relative_volume=1.05"]);
+    assert!(said.code == Some(2) && said.err.contains("grows at any step") && !sandbox.exists("out"), "{said:?}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::{PlaceWord, say};
 use crate::run::Stop;
 use crate::study::ablate;
+use crate::study::accuracy::parse_error;
 use clap::Args;
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -16,7 +17,7 @@ pub struct AblateArgs {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Error allowed in place of the scene's tolerances: `1%` or `0.01`.
-    #[arg(long, value_parser = fraction)]
+    #[arg(long, value_parser = parse_error)]
     error: Option<f64>,
     #[arg(long, value_enum, default_value = "cpu")]
     backend: PlaceWord,
@@ -29,13 +30,6 @@ pub struct AblateArgs {
     /// Begin anew and overwrite the CSV.
     #[arg(long)]
     force: bool,
-}
-
-/// A positive fraction, typed as such or in percent.
-fn fraction(text: &str) -> Result<f64, String> {
-    let (digits, scale) = text.strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
-    let number = digits.trim().parse::<f64>().map(|number| scale * number);
-    number.ok().filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| "must be like `1%` or `0.01`".into())
 }
 
 pub fn ablate(args: &AblateArgs) -> Result<i32, Stop> {

@@ -131,6 +131,14 @@ fn oscillate(calls: &[Call], [mut x, mut v]: [f64; 2], omega: f64) -> [f64; 2] {
     [x, v]
 }
 
+/// Whether a setting has limits to measure.
+///
+/// # Errors
+/// As [`limits`], without a run.
+pub fn check(setting: &Setting) -> Result<(), String> {
+    Kicked::new(setting).map(drop)
+}
+
 /// A periodic box at rest, one of whose particles is kicked.
 struct Kicked {
     file: File,

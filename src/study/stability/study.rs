@@ -1,7 +1,7 @@
 //! `lithosph study stability`: the zone of each setting of a matrix, runs of some of its waves, and the integrators'
 //! longest steps.
 
-use super::limits::{Limit, Secular, limits, secular};
+use super::limits::{self, Limit, Secular, limits, secular};
 use super::points::{Runs, chosen};
 use super::report;
 use super::setting::Setting;
@@ -62,6 +62,9 @@ pub fn run(request: &Request) -> Result<String, Stop> {
     let (paths, values) = matrix(request, &source, open).map_err(Stop::Refused)?;
     let resolved = |values: &Values| Setting::new(&open(&values.overrides)?);
     let settings: Vec<Setting> = values.iter().map(resolved).collect::<Result<_, _>>().map_err(Stop::Refused)?;
+    if request.limits {
+        settings.iter().try_for_each(limits::check).map_err(Stop::Refused)?;
+    }
     let out = request.out.clone().unwrap_or_else(|| format!("out/study/{}-stability.csv", scene.label()).into());
     let mut runs = runs(request, &source, &scene, &paths, &out)?;
 
