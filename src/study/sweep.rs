@@ -4,11 +4,11 @@
 
 use super::accuracy::matrix::Matrix;
 use super::accuracy::source::Source;
+use super::accuracy::table::line;
 use crate::backend::Choice;
 use crate::observable::{KINDS, Value};
 use crate::run::{self, Options, Stop};
 use crate::scene::Scene;
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -55,10 +55,7 @@ pub fn run(request: &Request, mut tell: impl FnMut(&str)) -> Result<String, Stop
         let options = Options { choice: request.choice.clone(), dry: true, quiet: true, ..Options::default() };
         let finished = run::run(&scene, &options)?;
         let numbers = names.iter().map(|name| number(&scene, &finished, name));
-        let row = numbers.fold(key, |mut row, number| {
-            let _ = write!(row, ",{number}");
-            row
-        });
+        let row = line(&setting.shown.iter().cloned().chain(numbers).collect::<Vec<_>>());
         tell(&row);
         append(&path, &row).map_err(Stop::Failed)?;
         rows.push(row);
@@ -77,17 +74,9 @@ fn number(scene: &Scene, finished: &run::Finished, name: &str) -> String {
     let typed = &scene.file.observe[name];
     let kind = KINDS.iter().find(|kind| kind.word == typed.kind).map(|kind| &kind.value);
     match kind {
-        Some(Value::Result(of)) => of(&finished.table, typed).map_or_else(|why| quoted(&why), |number| number.to_string()),
+        Some(Value::Result(of)) => of(&finished.table, typed).map_or_else(|why| why, |number| number.to_string()),
         _ => String::new(),
     }
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into() }
-}
-
-fn line(cells: &[String]) -> String {
-    cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",")
 }
 
 /// Rows of the file; makes it where there is none.

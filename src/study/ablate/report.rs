@@ -4,6 +4,7 @@ use super::judge::{Judge, Verdict};
 use super::piece::{Piece, Sort};
 use super::{Found, Request};
 use crate::scene::Scene;
+use crate::study::accuracy::recommend::quoted;
 use crate::study::accuracy::report::aligned;
 use crate::study::accuracy::row::Row;
 
@@ -92,10 +93,4 @@ fn command(request: &Request, piece: &Piece) -> String {
     let variant = request.variant.iter().map(|variant| format!(" --variant {variant}"));
     let set = request.set.iter().chain(&piece.overrides).map(|text| format!(" --set {}", quoted(text)));
     format!("lithosph run {}{}", request.scene.display(), variant.chain(set).collect::<String>())
-}
-
-/// As a shell takes it for one word.
-fn quoted(text: &str) -> String {
-    let plain = |letter: char| letter.is_ascii_alphanumeric() || "._=-+/".contains(letter);
-    if text.chars().all(plain) { text.into() } else { format!("'{}'", text.replace('\'', "'\\''")) }
 }

@@ -13,7 +13,7 @@ mod kind;
 pub(super) mod matrix;
 mod measure;
 mod names;
-mod recommend;
+pub(super) mod recommend;
 pub(super) mod report;
 pub(super) mod row;
 pub(super) mod source;

@@ -5,6 +5,7 @@ use super::setting::Setting;
 use super::simulate::Measured;
 use super::study::{Found, beside};
 use crate::output::csv::shortest;
+use crate::study::accuracy::report::aligned;
 use crate::study::chart::{Axis, Chart, Page, Picture, Section, Series, Style, Table};
 use std::path::Path;
 
@@ -67,9 +68,9 @@ fn digits(number: f64) -> String {
 /// Tables for the terminal.
 pub fn text(paths: &[String], found: &[Found], runs: Option<&Runs>, out: &Path) -> String {
     let short = |one: &Found| vec![numbers(one).iter().map(|&number| digits(number)).collect()];
-    let mut parts = vec![aligned(&rows(paths, &COLUMNS, found, short))];
+    let mut parts = vec![aligned(&rows(paths, &COLUMNS, found, short), paths.len())];
     if found.iter().any(|one| one.limits.is_some()) {
-        parts.push(aligned(&limit_rows(paths, found)));
+        parts.push(aligned(&limit_rows(paths, found), paths.len() + 1));
     }
     if let Some(runs) = runs {
         parts.extend(found.iter().map(|one| agreement(one, runs)));
@@ -94,16 +95,6 @@ fn agreement(found: &Found, runs: &Runs) -> String {
 
 fn name(values: &[String]) -> String {
     if values.is_empty() { String::new() } else { format!("{}: ", values.join(", ")) }
-}
-
-fn aligned(rows: &[Vec<String>]) -> String {
-    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..rows.first().map_or(0, Vec::len)).map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
-        cells.join("  ")
-    };
-    rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Pictures, each as SVG and PNG, and the page.

@@ -7,6 +7,7 @@ use crate::backend::Choice;
 use crate::output::csv;
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
+use crate::study::accuracy::source::hash;
 use crate::study::von_neumann::{Waves as _, fixed_wave_vectors};
 use std::path::Path;
 
@@ -84,7 +85,7 @@ impl Point {
     /// Time in dx/c and total velocity in m/s, from the file of an earlier run or from a new one.
     pub fn curve(&self, folder: &Path, tell: &dyn Fn(&str)) -> Result<Vec<(f64, f64)>, Stop> {
         let text = self.text();
-        let key = format!("# {} {:016x}", env!("CARGO_PKG_VERSION"), hash(&text));
+        let key = format!("# {} {:016x}", env!("CARGO_PKG_VERSION"), hash(text.as_bytes()));
         let path = folder.join(format!("{}.csv", self.name()));
         if std::fs::read_to_string(&path).is_ok_and(|kept| kept.starts_with(&key)) {
             let (_, rows) = csv::read(&path).map_err(Stop::Failed)?;
@@ -103,11 +104,6 @@ impl Point {
         written.map_err(|error| Stop::Failed(format!("{}: {error}", path.display())))?;
         Ok(rows)
     }
-}
-
-/// Fowler, Noll and Vo's hash 1a.
-fn hash(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// The runs by figure.
