@@ -1,8 +1,10 @@
 //! Time of every pass, particle-updates per core-second, and bytes per second beside a measured copy.
 //!
 //! `cargo bench --bench passes -- [particles …] [--gpu] [--method elastic|full|lagrangian|lagrangian_listed]`
+//! `cargo bench --bench passes -- --scene FILE [--variant NAME] [--time T] [--gpu]`
 //!
-//! The body is a cube on a cubic lattice with h = 1.22 spacings, about 60 neighbours, kicked by a smooth wave.
+//! The body is a cube on a cubic lattice with h = 1.22 spacings, about 60 neighbours, kicked by a smooth wave; or the
+//! scene in a file, as it is at time T.
 //! Machines are shared, so times on the CPU path are processor seconds, and the best of several rounds counts.
 
 use lithosph::backend::cpu::processor_seconds;
@@ -87,11 +89,15 @@ fn device_copy_bandwidth() -> Result<f64, String> {
     Ok(2.0 * (size * copies) as f64 / best)
 }
 
-fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> {
-    let scene = scene(particles, method);
+/// `time` is when the measurement begins.
+fn bench(scene: &Scene, time: f64, choice: &Choice, name: &str) -> Result<(), String> {
     let count = scene.particles.len() as f64;
-    let mut backend = open(&scene, choice)?;
-    backend.begin_segment(0.0, 1.0, u32::MAX, true)?;
+    let mut backend = open(scene, choice)?;
+    if time > 0.0 {
+        backend.begin_segment(0.0, time, u32::MAX, true)?;
+        while backend.advance()?.running == 1 {}
+    }
+    backend.begin_segment(time, scene.file.duration - time, u32::MAX, time == 0.0)?;
     // A first look warms caches and compiles shaders.
     let warm = backend.advance()?;
     let (mut wall, mut busy, mut seen) = (f64::INFINITY, f64::INFINITY, warm.steps_done);
@@ -104,7 +110,7 @@ fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> 
         busy = busy.min((processor_seconds() - used) / steps);
     }
     let neighbors = backend.fetch(&[Field::NeighborCount])?[&Field::NeighborCount].iter().sum::<f64>() / count;
-    println!("\n{count} particles, {method}, {neighbors:.1} neighbours in reach, {}", backend.describe());
+    println!("\n{count} particles, {name}, {neighbors:.1} neighbours in reach, {}", backend.describe());
     println!("{:.0} bytes a particle", backend.bytes() as f64 / count);
     println!("step {:.3} ms: {:.3e} particle-updates a second, {:.3e} a core-second", wall * 1e3, count / wall, count / busy);
     let bandwidth = if *choice == Choice::Cpu { copy_bandwidth() } else { device_copy_bandwidth()? };
@@ -116,15 +122,21 @@ fn bench(particles: usize, choice: &Choice, method: &str) -> Result<(), String> 
         100.0 * least / bandwidth,
         bandwidth / 1e9
     );
-    table(&mut *backend, &scene, count)
+    table(&mut *backend, scene, count)
 }
 
 fn table(backend: &mut dyn Backend, scene: &Scene, count: f64) -> Result<(), String> {
     let calls = step::step(&scene.method);
     let times = backend.time_passes(&calls, 3)?;
     println!("{:<20} {:>10} {:>14}", "pass", "ms", "ns a particle");
-    for (name, seconds) in times {
+    for (name, seconds) in &times {
         println!("{name:<20} {:>10.3} {:>14.2}", seconds * 1e3, seconds / count * 1e9);
+    }
+    let whole: f64 = times.iter().map(|(_, seconds)| seconds).sum();
+    let touching = calls.iter().zip(&times).filter(|(call, _)| call.pass.is_contact());
+    let contact: f64 = touching.map(|(_, (_, seconds))| seconds).sum();
+    if contact > 0.0 {
+        println!("contact: {:.0} % of the step", 100.0 * contact / whole);
     }
     Ok(())
 }
@@ -133,14 +145,23 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|w| w != "--bench").collect();
     let gpu = words.iter().any(|w| w == "--gpu");
     let after = |key: &str| words.iter().position(|w| w == key).and_then(|k| words.get(k + 1)).cloned();
+    let choice = if gpu { Choice::Gpu(None) } else { Choice::Cpu };
+    if let Some(path) = after("--scene") {
+        let time = after("--time").and_then(|text| text.parse().ok()).unwrap_or(0.0);
+        let scene = Scene::open(path.as_ref(), after("--variant").as_deref(), &[]);
+        let done = scene.and_then(|scene| bench(&scene, time, &choice, &scene.label()));
+        if let Err(error) = done {
+            eprintln!("{path}: {error}");
+        }
+        return;
+    }
     let method = after("--method").unwrap_or_else(|| "elastic".into());
     let mut sizes: Vec<usize> = words.iter().filter_map(|w| w.parse().ok()).collect();
     if sizes.is_empty() {
         sizes = vec![10_000, 100_000];
     }
     for size in sizes {
-        let choice = if gpu { Choice::Gpu(None) } else { Choice::Cpu };
-        if let Err(error) = bench(size, &choice, &method) {
+        if let Err(error) = bench(&scene(size, &method), 0.0, &choice, &method) {
             eprintln!("{size} particles: {error}");
         }
     }

@@ -231,6 +231,15 @@ impl Pass {
     pub fn is_force(self) -> bool {
         matches!(self, Pass::Force | Pass::BondForce)
     }
+    /// Whether it exists for the sake of bodies that touch: by the time of such passes contact is priced. The cells that
+    /// a list of contacts is made from belong to it where no other list is made.
+    pub fn is_contact(self) -> bool {
+        use Pass::*;
+        let lists = matches!(self, FindContacts | KeepListed | FindFacetContacts);
+        let potentials = matches!(self, SumColour | ContactForce | FindSurface | FindNormals | PushIntruders | ZoneForce);
+        let gaps = matches!(self, PlaceFacets | MeasureGap | PressFacets | CarryFacets | SurfaceForce);
+        lists || potentials || gaps || matches!(self, MoveObstacles | TouchObstacles | LoadObstacles)
+    }
 }
 
 /// Particles of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
