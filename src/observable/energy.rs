@@ -12,6 +12,16 @@ fn kinetic(moment: &Moment, i: usize) -> f64 {
     0.5 * moment.scene.mass(i) * v.iter().map(|c| c * c).sum::<f64>()
 }
 
+/// Kinetic energy of the obstacles that are free.
+fn obstacles(moment: &Moment) -> f64 {
+    let free = moment.scene.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.inverse_mass > 0.0);
+    free.map(|(k, obstacle)| {
+        let v = moment.vector(Field::ObstacleVelocity, k);
+        0.5 * v.iter().map(|c| c * c).sum::<f64>() / obstacle.inverse_mass
+    })
+    .sum()
+}
+
 /// Energy beside that of the material.
 fn stray(moment: &Moment, i: usize) -> f64 {
     moment.scalar(Field::HourglassEnergy, i) + moment.scalar(Field::ContactEnergy, i)
@@ -67,14 +77,16 @@ pub const DISSIPATED: Kind = Kind {
 
 pub const TOTAL: Kind = Kind {
     word: "total_energy",
-    about: "kinetic and elastic energy, that of hourglass terms and contacts, and the dissipated one where the scene adds it up",
+    about: "kinetic and elastic energy, that of hourglass terms and contacts, the dissipated one where the scene adds it up; of all particles also that of free obstacles",
     needs: &[],
     fields: &[Field::Velocity, Field::VolumetricStrain],
     value: Value::Series(|moment, observer| {
-        sum(observer, |i| {
+        let own = sum(observer, |i| {
             let heat = moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i);
             kinetic(moment, i) + moment.elastic_energy(i) + heat + stray(moment, i)
-        })
+        });
+        let all = observer.particles.len() == moment.count();
+        own + if all { obstacles(moment) } else { 0.0 }
     }),
 };
 

@@ -63,7 +63,7 @@ pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
         list.extend([Field::DeviatoricStress, Field::InelasticStrain, Field::DissipatedEnergy]);
         // With the velocity it is a total energy.
         if fields.contains(&Field::Velocity) {
-            list.extend([Field::HourglassEnergy, Field::ContactEnergy]);
+            list.extend([Field::HourglassEnergy, Field::ContactEnergy, Field::ObstacleVelocity]);
         }
     }
     list.retain(|field| present.contains(field));

@@ -59,7 +59,7 @@ fn scatter(count: usize, strength: f64) -> Vec<[f64; 3]> {
 }
 
 /// Energy of material, hourglass terms and contacts.
-fn energy<S: Space<Real = f64>>(state: &mut State<S>) -> f64 {
+pub fn energy<S: Space<Real = f64>>(state: &mut State<S>) -> f64 {
     respond(state);
     if state.method.hourglass {
         Pass::HourglassEnergy.run(state, Stage::default());

@@ -1,7 +1,8 @@
 //! Contact of surfaces by facets: what it keeps, and that it does not rub where it should not.
 
 use crate::common::{in_order, parse, steps};
-use crate::operators::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, resultants};
+use crate::operators::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, energy, resultants};
+use glam::DVec3;
 use lithosph::backend::cpu::Cpu;
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
@@ -118,6 +119,72 @@ fn rubbing_discs_keep_both_momenta_and_heat_up() {
     assert!((after[0] - before[0]).abs() < 1e-12 * mass * 0.08, "momentum {before:?} {after:?}");
     assert!((after[1] - before[1]).abs() < 1e-12 * mass * 0.08 * 10.0, "angular momentum {before:?} {after:?}");
     assert!(after[2] > 1e-3 && before[2] == 0.0, "heat {after:?}");
+}
+
+/// Mass of the ball.
+const BALL: f64 = 15.0;
+
+/// Where it begins.
+fn center(dimension: usize) -> DVec3 {
+    if dimension == 2 { DVec3::new(2.3, 4.2, 0.0) } else { DVec3::new(1.3, 0.4, 4.2) }
+}
+
+/// A block at rest that a free ball strikes aside of its middle.
+fn struck(dimension: usize) -> Scene {
+    let (block, velocity) = match dimension {
+        2 => ("min = [-6, -5], max = [6, 0]", "[0.01, -0.05]"),
+        _ => ("min = [-3, -3, -3], max = [3, 3, 0]", "[0.01, 0.02, -0.05]"),
+    };
+    let center = &center(dimension).to_array()[..dimension];
+    parse(&format!(
+        "title = 'free'\ndimension = {dimension}\nspacing = 1.0\nduration = 1.0
+        [[body]]\nname = 'block'\nshape = {{ block = {{ {block} }} }}\nanchor = {:?}\nmaterial = 'rubber'
+        [[obstacle]]\nname = 'ball'\nshape = {{ sphere = {{ center = {center:?}, radius = 4 }} }}\nmass = {BALL}\nvelocity = {velocity}\n{RUBBER}",
+        vec![0.5; dimension]
+    ))
+}
+
+/// Momentum, angular momentum and energy of the bodies and the ball.
+fn kept<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> [f64; 7] {
+    cpu.state.clock.running = 1;
+    let stored = energy::<S>(&mut cpu.state);
+    let state = &cpu.state;
+    let (mut momentum, mut spin, mut motion) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    let vector = |v: S::Vec| DVec3::from_array(std::array::from_fn(|k| if k < S::DIMENSION { v[k] } else { 0.0 }));
+    let mut add = |x: DVec3, v: DVec3, m: f64| {
+        (momentum, spin, motion) = (momentum + v * m, spin + x.cross(v) * m, motion + 0.5 * m * v.length_squared());
+    };
+    for a in 0..state.params.count as usize {
+        add(vector(state.position(a)), vector(state.particles.velocity[a]), state.mass(a));
+    }
+    let ball = &state.particles;
+    add(center(S::DIMENSION) + vector(ball.obstacle_displacement[0]), vector(ball.obstacle_velocity[0]), BALL);
+    let [[a, b, c], [d, e, f]] = [momentum.to_array(), spin.to_array()];
+    [a, b, c, d, e, f, motion + stored]
+}
+
+fn assert_a_free_ball_gives_what_it_loses<S: Space<Real = f64>>() {
+    let scene = struck(S::DIMENSION);
+    let mut cpu = Cpu::new(scene.state::<S>(false));
+    steps(&mut cpu, 0);
+    let before = kept(&mut cpu);
+    let fall = |cpu: &Cpu<S>| cpu.state.particles.obstacle_velocity[0][S::DIMENSION - 1];
+    let first = fall(&cpu);
+    steps(&mut cpu, 700);
+    let after = kept(&mut cpu);
+    assert!(first < 0.0 && fall(&cpu) > 0.1 * -first, "the ball leaves upward: {first} {}", fall(&cpu));
+    assert_eq!(cpu.state.particles.facet_obstacle.iter().max(), Some(&0), "and has left");
+    for k in 0..6 {
+        let size = BALL * 0.05 * if k < 3 { 1.0 } else { 5.0 };
+        assert!((after[k] - before[k]).abs() < 1e-12 * size, "{k}: {before:?} {after:?}");
+    }
+    assert!((after[6] / before[6] - 1.0).abs() < 1e-3, "energy: {before:?} {after:?}");
+}
+
+#[test]
+fn a_free_ball_gives_what_it_loses() {
+    assert_a_free_ball_gives_what_it_loses::<Plane<f64>>();
+    assert_a_free_ball_gives_what_it_loses::<Solid<f64>>();
 }
 
 /// Drag over load of a disc that slides without friction over a held block at 0.005 c, over 3 spacings.
