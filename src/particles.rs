@@ -225,6 +225,7 @@ fields! {
     facet_move: FacetMove, Vec, LENGTH, false, "what the facet's displacement grew by in this step";
     facet_normal: FacetNormal, Vec, NONE, false, "the facet's present outward normal";
     facet_contact_count: FacetContactCount, Integer, NONE, false, "number of entries in the facet's list of facets that it may touch";
+    facet_pressed: FacetPressed, Integer, NONE, false, "1 where the facet presses on a surface or is in the list of one that does, else 0";
     facet_gap: FacetGap, Real, LENGTH, false, "smoothed distance to the other surface along its normals";
     facet_spread: FacetSpread, Real, NONE, false, "one over the sum of the weights of that surface's facets, 0 where it is out of touch";
     facet_pull: FacetPull, Real, FORCE, false, "derivative of the facet's energy by its gap, over the sum of the weights";

@@ -528,6 +528,12 @@ impl<S: Space> State<S> {
     pub fn facet_pair(&self, a: usize, b: usize) -> &FacetPair<S::Real> {
         &self.facet_pairs[self.body_index(a) * self.params.body_count as usize + self.body_index(b)]
     }
+    /// Whether a surface or an obstacle acts on facet e. Most are out of touch, and nothing else of them needs to be read.
+    #[inline(always)]
+    pub fn facet_touched(&self, e: usize) -> bool {
+        let is = |column: &[u32]| column.get(e).is_some_and(|&word| word > 0);
+        is(&self.particles.facet_pressed) || is(&self.particles.facet_obstacle)
+    }
     /// How the surface of particle a touches facet f, which is in the list of one of a's: nowhere else to be looked up
     /// if all surfaces touch alike.
     #[inline(always)]

@@ -2,8 +2,8 @@
 // Twin: src/facet.rs
 #import params
 
-// Two facets that face each other: x_e - x_f, the weight, and its derivatives by x (times x) and by n_e.n_f. A
-// weight of 0 where f does not matter for e.
+// How two facets face each other: x_e - x_f, the weight, and its derivatives by x (times x) and by n_e.n_f. All but the
+// first are zero out of range, and where the two look the same way.
 struct Facing {
     x: Vec,
     weight: real,
@@ -28,11 +28,8 @@ fn facet_separation(own: Seat, f: u32) -> Vec {
 
 fn facing(own: Seat, f: u32, range: real) -> Facing {
     let x = facet_separation(own, f);
-    let left = 1.0 - inner(x, x) / (range * range);
-    let turn = inner(own.normal, facet_normal[f]);
-    if left <= 0.0 || turn >= 0.0 {
-        return Facing(x, 0.0, 0.0, 0.0);
-    }
+    let left = max(1.0 - inner(x, x) / (range * range), 0.0);
+    let turn = min(inner(own.normal, facet_normal[f]), 0.0);
     let square = left * left;
     let cube = left * left * left;
     let toward = turn * turn;

@@ -2,6 +2,7 @@
 // Twin: src/pass/carry_facets.rs
 #import invocation
 #import params
+#import facet_touched
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> first_facet: array<u32>;
@@ -22,7 +23,9 @@ fn main(invocation: Invocation) {
     var sum = Mat();
     let end = first_facet[a] + facets[a];
     for (var e = first_facet[a]; e < end; e++) {
-        sum += facet_moment[e];
+        if facet_touched(e) {
+            sum += facet_moment[e];
+        }
     }
     let mean = sum * (1.0 / reference_volume[a]);
 #if correct_rate

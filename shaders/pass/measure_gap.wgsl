@@ -1,4 +1,5 @@
-// Distance of each facet from the surface that faces it, and what follows from it. Twin: src/pass/measure_gap.rs
+// Distance of each facet from the surface that faces it, and what follows from it. A facet that presses on the other
+// surface tells so to those in its list. Twin: src/pass/measure_gap.rs
 #import invocation
 #import facet_pair
 #import facet
@@ -14,6 +15,7 @@
 @group(0) @binding(_) var<storage, read> facet_area: array<real>;
 @group(0) @binding(_) var<storage, read> facet_contacts: array<u32>;
 @group(0) @binding(_) var<storage, read> facet_contact_count: array<u32>;
+@group(0) @binding(_) var<storage, read_write> facet_pressed: array<atomic<u32>>;
 @group(0) @binding(_) var<storage, read_write> facet_gap: array<real>;
 @group(0) @binding(_) var<storage, read_write> facet_spread: array<real>;
 @group(0) @binding(_) var<storage, read_write> facet_pull: array<real>;
@@ -80,6 +82,17 @@ fn main(invocation: Invocation) {
     }
 #endif
     facet_energy[e] = energy;
+    if force != 0.0 {
+        tell(e);
+    }
+}
+
+fn tell(e: u32) {
+    atomicStore(&facet_pressed[e], 1u);
+    let listed = facet_contact_count[e];
+    for (var k = 0u; k < listed; k++) {
+        atomicStore(&facet_pressed[facet_contacts[k * params.facet_count + e]], 1u);
+    }
 }
 
 #if friction

@@ -7,8 +7,10 @@
 @group(0) @binding(_) var<storage, read> movers: array<Mover>;
 @group(0) @binding(_) var<storage, read> obstacle_force: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> obstacle_displacement: array<Vec>;
-@group(0) @binding(_) var<storage, read_write> obstacle_move: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> obstacle_velocity: array<Vec>;
+#if friction
+@group(0) @binding(_) var<storage, read_write> obstacle_move: array<Vec>;
+#endif
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) local: u32) {
@@ -24,7 +26,9 @@ fn main(@builtin(local_invocation_index) local: u32) {
         } else {
             prescribe(k);
         }
+#if friction
         obstacle_move[k] = obstacle_displacement[k] - before;
+#endif
     }
 }
 

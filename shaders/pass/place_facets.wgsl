@@ -8,8 +8,13 @@
 @group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read> facet_reference_normal: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> facet_displacement: array<Vec>;
-@group(0) @binding(_) var<storage, read_write> facet_move: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> facet_normal: array<Vec>;
+#if friction
+@group(0) @binding(_) var<storage, read_write> facet_move: array<Vec>;
+#endif
+#if gap
+@group(0) @binding(_) var<storage, read_write> facet_pressed: array<u32>;
+#endif
 
 @compute @workgroup_size(64)
 fn main(invocation: Invocation) {
@@ -20,8 +25,13 @@ fn main(invocation: Invocation) {
     let a = facet_owner[e];
     let gradient = displacement_gradient[a];
     let moved = displacement[a] + mat_vec(gradient, lever(e));
+#if friction
     facet_move[e] = moved - facet_displacement[e];
+#endif
     facet_displacement[e] = moved;
     let normal = mat_vec(transpose_mat(adjugate(mat_identity() + gradient)), facet_reference_normal[e]);
     facet_normal[e] = normal * (1.0 / sqrt(inner(normal, normal)));
+#if gap
+    facet_pressed[e] = 0u;
+#endif
 }

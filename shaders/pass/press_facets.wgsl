@@ -12,6 +12,7 @@
 @group(0) @binding(_) var<storage, read> facet_normal: array<Vec>;
 @group(0) @binding(_) var<storage, read> facet_contacts: array<u32>;
 @group(0) @binding(_) var<storage, read> facet_contact_count: array<u32>;
+@group(0) @binding(_) var<storage, read> facet_pressed: array<u32>;
 @group(0) @binding(_) var<storage, read> facet_pull: array<real>;
 #if !along_normals
 @group(0) @binding(_) var<storage, read> facet_gap: array<real>;
@@ -38,7 +39,7 @@ fn main(invocation: Invocation) {
     if e >= params.facet_count || clock.running == 0u {
         return;
     }
-    if facet_contact_count[e] == 0u {
+    if facet_pressed[e] == 0u {
         facet_force[e] = Vec();
         facet_moment[e] = Mat();
         return;

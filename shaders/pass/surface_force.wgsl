@@ -2,6 +2,7 @@
 // Twin: src/pass/surface_force.rs
 #import invocation
 #import mass
+#import facet_touched
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> first_facet: array<u32>;
@@ -28,8 +29,10 @@ fn main(invocation: Invocation) {
     var energy: real = 0.0;
     let end = first_facet[a] + facets[a];
     for (var e = first_facet[a]; e < end; e++) {
-        force += facet_force[e];
-        energy += facet_energy[e];
+        if facet_touched(e) {
+            force += facet_force[e];
+            energy += facet_energy[e];
+        }
     }
 #if contact
     contact_energy[a] += energy;

@@ -60,6 +60,18 @@ fn main(invocation: Invocation) {
     if found > 0u {
         touch = touch_of(e, found - 1u, nearest);
     }
+#if friction
+    facet_obstacle_slip[e] = touch.slip;
+#if gap
+    facet_heat[e] += touch.heat;
+#else
+    facet_heat[e] = touch.heat;
+#endif
+#endif
+    // Out of touch as before: there is nothing to add, nor to take back.
+    if found == 0u && facet_obstacle[e] == 0u {
+        return;
+    }
     facet_obstacle[e] = found;
     facet_load[e] = touch.load;
     let moment = outer(touch.load, lever(e)) * -1.0;
@@ -73,14 +85,6 @@ fn main(invocation: Invocation) {
     facet_moment[e] = moment;
     facet_pressure[e] = touch.pressure;
     facet_energy[e] = touch.energy;
-#endif
-#if friction
-    facet_obstacle_slip[e] = touch.slip;
-#if gap
-    facet_heat[e] += touch.heat;
-#else
-    facet_heat[e] = touch.heat;
-#endif
 #endif
 }
 

@@ -30,7 +30,7 @@ macro_rules! library {
 
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
-        descent, displacement_difference, facet, facet_lever, facet_pair, half_kick, hourglass_stiffness, inverse, invocation,
+        descent, displacement_difference, facet, facet_lever, facet_pair, facet_touched, half_kick, hourglass_stiffness, inverse, invocation,
         kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, own_neighbor, pair, pair_velocity, params, real,
         separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
         unbalanced, visit_cells, volume;

@@ -12,14 +12,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut stresses = std::mem::take(&mut state.particles.bond_stress);
     super::write(&mut stresses, |a, stress| {
-        let range = state.facets_of(a);
-        if !range.is_empty() {
-            let sum = range.fold(S::Mat::default(), |sum, e| sum + state.particles.facet_moment[e]);
-            // Most facets touch nothing.
-            if sum != S::Mat::default() {
-                let mean = sum * (S::Real::of(1.0) / state.particles.reference_volume[a]);
-                *stress += corrected(state, a, &mean);
-            }
+        let mut touched = state.facets_of(a).filter(|&e| state.facet_touched(e)).peekable();
+        if touched.peek().is_some() {
+            let sum = touched.fold(S::Mat::default(), |sum, e| sum + state.particles.facet_moment[e]);
+            let mean = sum * (S::Real::of(1.0) / state.particles.reference_volume[a]);
+            *stress += corrected(state, a, &mean);
         }
     });
     state.particles.bond_stress = stresses;

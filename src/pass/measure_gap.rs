@@ -1,5 +1,6 @@
 //! Distance of each facet from the surface that faces it, and what follows from it: the derivatives of its energy,
-//! and friction. See [`crate::facet`]. Twin: shaders/pass/measure_gap.wgsl
+//! and friction. See [`crate::facet`]. A facet that presses on the other surface tells so to those in its list, whose
+//! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
 use crate::facet::{FacetPair, facing, fade, stick};
@@ -48,11 +49,24 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     } else {
         rows.for_each(|(e, row)| found(e).put(row));
     }
+    tell(state, &pull);
     let own = &mut state.particles;
     (own.facet_gap, own.facet_spread, own.facet_pull) = (gap, spread, pull);
     (own.facet_edge, own.facet_pressure, own.facet_energy) = (edge, pressure, energy);
     (own.facet_slip, own.facet_traction, own.facet_heat) =
         if state.method.friction { (slip, traction, heat) } else { Default::default() };
+}
+
+/// Marks the facets that press and those that they press on, with some that are only near.
+fn tell<S: Space>(state: &mut State<S>, pulls: &[S::Real]) {
+    let total = state.params.facet_count as usize;
+    let columns = &mut state.particles;
+    for (e, _) in pulls.iter().enumerate().filter(|(_, pull)| **pull != S::Real::of(0.0)) {
+        columns.facet_pressed[e] = 1;
+        for k in 0..columns.facet_contact_count[e] as usize {
+            columns.facet_pressed[state.facet_contacts[k * total + e] as usize] = 1;
+        }
+    }
 }
 
 impl<R: Copy, V> Contact<R, V> {
@@ -131,7 +145,7 @@ fn sum<S: Space>(state: &State<S>, e: usize) -> Sums<S> {
         let f = state.facet_contacts[k * total + e] as usize;
         let pair = state.listed_pair(a, f);
         sums.pair = *pair;
-        let Some(facing) = facing(state, e, f, pair.range) else { continue };
+        let facing = facing(state, e, f, pair.range);
         sums.weight += facing.weight;
         sums.distance += facing.weight * S::inner(columns.facet_normal[f], facing.x);
         if state.method.friction {

@@ -24,7 +24,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         };
         state.particles.obstacle_velocity[k] = velocity;
         state.particles.obstacle_displacement[k] = after;
-        state.particles.obstacle_move[k] = after - before;
+        if state.method.friction {
+            state.particles.obstacle_move[k] = after - before;
+        }
     }
 }
 

@@ -30,7 +30,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut moments = std::mem::take(&mut state.particles.facet_moment);
     let columns = forces.par_iter_mut().zip(&mut moments).enumerate();
     columns.with_min_len(super::GRAIN).for_each(|(e, (force, moment))| {
-        (*force, *moment) = if state.particles.facet_contact_count[e] > 0 { load(state, e) } else { Default::default() };
+        (*force, *moment) = if state.particles.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
     });
     state.particles.facet_force = forces;
     state.particles.facet_moment = moments;
@@ -61,7 +61,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
             continue;
         }
         let pair = state.listed_pair(a, f);
-        let Some(facing) = facing(state, e, f, pair.range) else { continue };
+        let facing = facing(state, e, f, pair.range);
         press(state, (e, f), &facing, &mut load);
         if state.method.friction {
             let pulled = columns.facet_traction[f] * (zero - facing.weight * columns.facet_spread[f]);

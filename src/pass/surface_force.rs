@@ -14,13 +14,14 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
     let beside = state.method.contact.with_energy();
     super::write(&mut energies, |a, energy| {
-        let own = state.facets_of(a).fold(S::Real::of(0.0), |sum, e| sum + state.particles.facet_energy[e]);
+        let touched = state.facets_of(a).filter(|&e| state.facet_touched(e));
+        let own = touched.fold(S::Real::of(0.0), |sum, e| sum + state.particles.facet_energy[e]);
         *energy = if beside { *energy + own } else { own };
     });
     super::write(&mut accelerations, |a, acceleration| {
-        let range = state.facets_of(a);
-        if !range.is_empty() {
-            let force = range.fold(S::Vec::default(), |sum, e| sum + state.particles.facet_force[e]);
+        let mut touched = state.facets_of(a).filter(|&e| state.facet_touched(e)).peekable();
+        if touched.peek().is_some() {
+            let force = touched.fold(S::Vec::default(), |sum, e| sum + state.particles.facet_force[e]);
             *acceleration += force * (S::Real::of(1.0) / state.mass(a));
         }
     });

@@ -27,25 +27,57 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut touches = vec![TouchIn::<S>::default(); state.params.facet_count as usize];
-    touches.par_iter_mut().enumerate().with_min_len(super::GRAIN).for_each(|(e, slot)| *slot = touch(state, e));
     let (added, friction) = (state.method.gap.is_some(), state.method.friction);
-    for (e, touch) in touches.iter().enumerate() {
-        let moment =
-            if touch.obstacle > 0 { S::outer(touch.load, lever(state, e)) * S::Real::of(-1.0) } else { S::Mat::default() };
-        let columns = &mut state.particles;
-        columns.facet_obstacle[e] = touch.obstacle;
-        columns.facet_load[e] = touch.load;
-        let kept = if added { S::Real::of(1.0) } else { S::Real::of(0.0) };
-        columns.facet_force[e] = columns.facet_force[e] * kept + touch.load;
-        columns.facet_moment[e] = columns.facet_moment[e] * kept + moment;
-        columns.facet_pressure[e] = columns.facet_pressure[e] * kept + touch.pressure;
-        columns.facet_energy[e] = columns.facet_energy[e] * kept + touch.energy;
-        if friction {
-            columns.facet_obstacle_slip[e] = touch.slip;
-            columns.facet_heat[e] = columns.facet_heat[e] * kept + touch.heat;
+    let mut own = std::mem::take(&mut state.particles);
+    let (mut obstacle, mut load) = (std::mem::take(&mut own.facet_obstacle), std::mem::take(&mut own.facet_load));
+    let (mut force, mut moment) = (std::mem::take(&mut own.facet_force), std::mem::take(&mut own.facet_moment));
+    let (mut pressure, mut energy) = (std::mem::take(&mut own.facet_pressure), std::mem::take(&mut own.facet_energy));
+    let (mut slip, mut heat) = (std::mem::take(&mut own.facet_obstacle_slip), std::mem::take(&mut own.facet_heat));
+    state.particles = own;
+    let put = |e: usize, row: Row<'_, S>, slip: S::Vec| {
+        let touch = touch(state, e, slip);
+        // Out of touch as before: there is nothing to add, nor to take back.
+        if touch.obstacle == 0 && *row.obstacle == 0 {
+            return touch;
         }
+        let moment = S::outer(touch.load, lever(state, e)) * S::Real::of(-1.0);
+        let kept = if added { S::Real::of(1.0) } else { S::Real::of(0.0) };
+        *row.obstacle = touch.obstacle;
+        *row.load = touch.load;
+        *row.force = *row.force * kept + touch.load;
+        *row.moment = *row.moment * kept + moment;
+        *row.pressure = *row.pressure * kept + touch.pressure;
+        *row.energy = *row.energy * kept + touch.energy;
+        touch
+    };
+    let columns = (&mut obstacle, &mut load, &mut force, &mut moment, &mut pressure, &mut energy).into_par_iter();
+    let rows = columns.enumerate().with_min_len(super::GRAIN).map(|(e, (obstacle, load, force, moment, pressure, energy))| {
+        (e, Row::<S> { obstacle, load, force, moment, pressure, energy })
+    });
+    if friction {
+        rows.zip((&mut slip, &mut heat)).for_each(|((e, row), (slip, heat))| {
+            let touch = put(e, row, *slip);
+            *slip = touch.slip;
+            *heat = if added { *heat + touch.heat } else { touch.heat };
+        });
+    } else {
+        rows.for_each(|(e, row)| {
+            put(e, row, S::Vec::default());
+        });
     }
+    let own = &mut state.particles;
+    (own.facet_obstacle, own.facet_load, own.facet_force, own.facet_moment) = (obstacle, load, force, moment);
+    (own.facet_pressure, own.facet_energy, own.facet_obstacle_slip, own.facet_heat) = (pressure, energy, slip, heat);
+}
+
+/// What the pass writes of one facet.
+struct Row<'c, S: Space> {
+    obstacle: &'c mut u32,
+    load: &'c mut S::Vec,
+    force: &'c mut S::Vec,
+    moment: &'c mut S::Mat,
+    pressure: &'c mut S::Real,
+    energy: &'c mut S::Real,
 }
 
 /// The obstacle that a facet is deepest in, counted from 1, its distance and its normal.
@@ -68,7 +100,8 @@ fn deepest<S: Space>(state: &State<S>, e: usize) -> (usize, S::Real, S::Vec) {
     found
 }
 
-fn touch<S: Space>(state: &State<S>, e: usize) -> TouchIn<S> {
+/// `slip` is the elastic slip before.
+fn touch<S: Space>(state: &State<S>, e: usize, slip: S::Vec) -> TouchIn<S> {
     let (obstacle, gap, normal) = deepest(state, e);
     if obstacle == 0 {
         return Touch::default();
@@ -86,6 +119,7 @@ fn touch<S: Space>(state: &State<S>, e: usize) -> TouchIn<S> {
         ..Touch::default()
     };
     if state.method.friction && pair.friction > S::Real::of(0.0) {
+        touch.slip = slip;
         rub(state, (e, obstacle - 1), normal, (&pair, stiffness, force), &mut touch);
     }
     touch
@@ -100,7 +134,7 @@ fn rub<S: Space>(
     touch: &mut TouchIn<S>,
 ) {
     let columns = &state.particles;
-    let grown = columns.facet_obstacle_slip[e] + columns.facet_move[e] - columns.obstacle_move[k];
+    let grown = touch.slip + columns.facet_move[e] - columns.obstacle_move[k];
     let along = grown - normal * S::inner(grown, normal);
     (touch.slip, touch.heat) = stick::<S>(along, stiffness, pair.friction * force);
     touch.load += touch.slip * (S::Real::of(-1.0) * stiffness);

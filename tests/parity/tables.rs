@@ -357,11 +357,12 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let count = state.params.counts().of(field.set());
     let kind = field.kind();
     if kind == Type::Integer {
-        if field == Surface {
+        if matches!(field, Surface | FacetObstacle | FacetPressed) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
-            column.iter_mut().for_each(|entry| *entry = random.word() as u32 % 3);
+            let words = if field == FacetPressed { 2 } else { 3 };
+            column.iter_mut().for_each(|entry| *entry = random.word() as u32 % words);
         }
-        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount | FacetObstacle) {
+        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount) {
             let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
         }
@@ -411,7 +412,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             ShapeStress => bulk * strain(random),
             DisplacementGradientStart => 0.1 * random.signed(),
             DisplacementGradientRate | DisplacementGradientSum => 0.02 * rate * random.signed(),
-            Surface | FirstFacet | Facets | FacetOwner | FacetContactCount | FacetObstacle => unreachable!(),
+            Surface | FirstFacet | Facets | FacetOwner | FacetContactCount | FacetPressed | FacetObstacle => unreachable!(),
             Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount | KeptCount => unreachable!(),
         }
     };
