@@ -114,17 +114,6 @@ impl Obstacle<f64> {
             sine: R::of(self.sine),
         }
     }
-
-    /// Area (m2) of the section across the axis at distance 1 from the apex, which grows with the square of it: the
-    /// area function of an indenter. 0 for shapes without an apex.
-    pub fn section(&self) -> f64 {
-        let tangent = self.sine / self.cosine;
-        match Kind::ALL[self.kind as usize] {
-            Kind::Cone => std::f64::consts::PI * tangent * tangent,
-            Kind::Berkovich => 27_f64.sqrt() * tangent * tangent,
-            _ => 0.0,
-        }
-    }
 }
 
 /// Signed distance (m) of `x`, a place relative to the obstacle's point, from the surface, negative inside, and the
