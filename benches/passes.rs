@@ -89,9 +89,12 @@ fn device_copy_bandwidth() -> Result<f64, String> {
     Ok(2.0 * (size * copies) as f64 / best)
 }
 
-/// `time` is when the measurement begins.
+/// `time` is when the measurement begins. Lists are not made anew in it: see how often a run does so.
 fn bench(scene: &Scene, time: f64, choice: &Choice, name: &str) -> Result<(), String> {
     let count = scene.particles.len() as f64;
+    if !(0.0..scene.file.duration).contains(&time) {
+        return Err(format!("--time must lie between 0 and the scene's duration {}, found {time}", scene.file.duration));
+    }
     let mut backend = open(scene, choice)?;
     if time > 0.0 {
         backend.begin_segment(0.0, time, u32::MAX, true)?;
@@ -133,7 +136,7 @@ fn table(backend: &mut dyn Backend, scene: &Scene, count: f64) -> Result<(), Str
         println!("{name:<20} {:>10.3} {:>14.2}", seconds * 1e3, seconds / count * 1e9);
     }
     let whole: f64 = times.iter().map(|(_, seconds)| seconds).sum();
-    let touching = calls.iter().zip(&times).filter(|(call, _)| call.pass.is_contact());
+    let touching = calls.iter().zip(&times).filter(|(call, _)| call.pass.is_contact(&scene.method));
     let contact: f64 = touching.map(|(_, (_, seconds))| seconds).sum();
     if contact > 0.0 {
         println!("contact: {:.0} % of the step", 100.0 * contact / whole);
@@ -147,9 +150,9 @@ fn main() {
     let after = |key: &str| words.iter().position(|w| w == key).and_then(|k| words.get(k + 1)).cloned();
     let choice = if gpu { Choice::Gpu(None) } else { Choice::Cpu };
     if let Some(path) = after("--scene") {
-        let time = after("--time").and_then(|text| text.parse().ok()).unwrap_or(0.0);
+        let time = after("--time").map_or(Ok(0.0), |text| text.parse().map_err(|_| format!("--time {text} is not a number")));
         let scene = Scene::open(path.as_ref(), after("--variant").as_deref(), &[]);
-        let done = scene.and_then(|scene| bench(&scene, time, &choice, &scene.label()));
+        let done = time.and_then(|time| scene.and_then(|scene| bench(&scene, time, &choice, &scene.label())));
         if let Err(error) = done {
             eprintln!("{path}: {error}");
         }

@@ -58,7 +58,7 @@ mod zone_force;
 
 pub use bound_residual::{force_scale, unbalanced};
 
-use crate::state::State;
+use crate::state::{Method, State};
 use crate::tensor::Space;
 use rayon::prelude::*;
 
@@ -232,10 +232,11 @@ impl Pass {
         matches!(self, Pass::Force | Pass::BondForce)
     }
     /// Whether it exists for the sake of bodies that touch: by the time of such passes contact is priced. The cells that
-    /// a list of contacts is made from belong to it where no other list is made.
-    pub fn is_contact(self) -> bool {
+    /// a list of contacts is made from belong to it where no list of neighbours follows the particles.
+    pub fn is_contact(self, method: &Method) -> bool {
         use Pass::*;
-        let lists = matches!(self, FindContacts | KeepListed | FindFacetContacts);
+        let cells = !method.list_follows() && matches!(self, BinCells | ScanCells | FillCells | SortCells);
+        let lists = cells || matches!(self, FindContacts | KeepListed | FindFacetContacts);
         let potentials = matches!(self, SumColour | ContactForce | FindSurface | FindNormals | PushIntruders | ZoneForce);
         let gaps = matches!(self, PlaceFacets | MeasureGap | PressFacets | CarryFacets | SurfaceForce);
         lists || potentials || gaps || matches!(self, MoveObstacles | TouchObstacles | LoadObstacles)
