@@ -2,13 +2,13 @@
 //! m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, half of the pairs' energy; by the colour field see
 //! [`crate::contact::colour_field`]. Twin: shaders/pass/contact_force.wgsl
 
-use super::{GRAIN, Stage};
+use super::Stage;
+use super::rows::{GRAIN, write_rows};
 use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
 use crate::smoothing::{Kernel, Scaled, with_kernel};
 use crate::state::{ContactPair, State};
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -16,8 +16,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
     let mut energies = std::mem::take(&mut state.particles.contact_energy);
-    let columns = accelerations.par_iter_mut().zip(&mut energies).enumerate();
-    columns.with_min_len(GRAIN).for_each(|(a, (acceleration, energy))| {
+    write_rows((&mut accelerations[..], &mut energies[..]), GRAIN, |a, (acceleration, energy)| {
         *energy = S::Real::of(0.0);
         if state.particles.contact_count[a] > 0 {
             let (force, stored) = sum(state, a);

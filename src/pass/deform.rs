@@ -9,12 +9,12 @@
 //! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
+use super::rows::{GRAIN, write_rows};
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::material::{self, Memory};
 use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -27,8 +27,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let heats = state.method.memory() && state.method.dissipated_energy;
     let before = if heats { gradients.clone() } else { Vec::new() };
     with_bonds!(state, B => {
-        let columns = gradients.par_iter_mut().zip(&mut stresses).enumerate();
-        columns.with_min_len(super::GRAIN).for_each(|(a, (gradient, stress))| {
+        write_rows((&mut gradients[..], &mut stresses[..]), GRAIN, |a, (gradient, stress)| {
             *stress = sum_bonds::<S, B>(state, a);
             *gradient = corrected(state, a, stress);
             let linear = *gradient;

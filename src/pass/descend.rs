@@ -1,10 +1,10 @@
 //! One step toward equilibrium: u += back v, then v = keep v + push a, then u += forward v, with a the out-of-balance
 //! acceleration. The numbers come from [`super::bound_residual`]. Twin: shaders/pass/descend.wgsl
 
+use super::rows::{GRAIN, write_rows};
 use super::{Stage, compensated_add, unbalanced};
 use crate::state::State;
 use crate::tensor::Space;
-use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -19,8 +19,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         before * state.balance.back + *v * state.balance.forward
     };
     if carry.is_empty() {
-        let columns = displacement.par_iter_mut().zip(&mut velocity).enumerate();
-        columns.with_min_len(super::GRAIN).for_each(|(a, (u, v))| *u += advance(a, v));
+        write_rows((&mut displacement[..], &mut velocity[..]), GRAIN, |a, (u, v)| *u += advance(a, v));
     } else {
         for (a, (u, v)) in displacement.iter_mut().zip(&mut velocity).enumerate() {
             compensated_add::<S>(u, &mut carry[a], advance(a, v));

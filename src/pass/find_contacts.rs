@@ -4,10 +4,10 @@
 
 use super::Stage;
 use super::find_neighbors::visit_cells;
+use super::rows::{Wide, write_rows};
 use crate::pair::{reference_separation, separation};
 use crate::state::{Fault, State};
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 /// Particles whose lists are found together.
 const CHUNK: usize = 256;
@@ -18,8 +18,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut counts = std::mem::take(&mut state.particles.contact_count);
     // What a chunk has found lies together; few particles find any.
-    let found: Vec<Option<Vec<u32>>> =
-        counts.par_chunks_mut(CHUNK).enumerate().map(|(k, counts)| list_chunk(state, k * CHUNK, counts)).collect();
+    let mut found: Vec<Option<Vec<u32>>> = vec![None; counts.len().div_ceil(CHUNK)];
+    let chunks = Wide { entries: &mut counts[..], width: CHUNK };
+    write_rows((chunks, &mut found[..]), 1, |k, (counts, list)| *list = list_chunk(state, k * CHUNK, counts));
     let count = counts.len();
     for (first, list) in (0..).step_by(CHUNK).zip(&found) {
         let Some(list) = list else {

@@ -6,7 +6,6 @@ use super::find_neighbors::visit_cells;
 use crate::facet::facet_separation;
 use crate::state::{Fault, State};
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 /// Largest n_e.n_f that enters the list: facets that stand across each other hardly touch.
 const MOST_TURN: f64 = -0.05;
@@ -18,7 +17,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut contacts = std::mem::take(&mut state.facet_contacts);
     let mut counts = std::mem::take(&mut state.particles.facet_contact_count);
     let (total, capacity) = (state.params.facet_count as usize, state.params.facet_capacity as usize);
-    let found: Vec<Vec<u32>> = (0..total).into_par_iter().with_min_len(super::GRAIN).map(|e| list_one(state, e)).collect();
+    let mut found = vec![Vec::new(); total];
+    super::write(&mut found, |e, list| *list = list_one(state, e));
     let full = found.iter().any(|list| list.len() > capacity);
     for (e, (list, count)) in found.iter().zip(&mut counts).enumerate() {
         *count = if list.len() > capacity { 0 } else { list.len() as u32 };

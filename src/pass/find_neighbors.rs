@@ -3,10 +3,10 @@
 
 use super::Stage;
 use super::bin_cells::{cell_of, place};
+use super::rows::{Wide, write_rows};
 use crate::pair::{mirror_point, reference_separation, separation};
 use crate::state::{Fault, NEIGHBOR_BITS, State};
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
@@ -17,7 +17,8 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     let mut neighbors = std::mem::take(&mut state.neighbors);
     let mut counts = std::mem::take(&mut state.particles.neighbor_count);
     let fault = AtomicU32::new(0);
-    neighbors.par_chunks_mut(capacity).zip(counts.par_iter_mut()).enumerate().with_min_len(64).for_each(|(a, (row, count))| {
+    let lists = Wide { entries: &mut neighbors[..], width: capacity };
+    write_rows((lists, &mut counts[..]), 64, |a, (row, count)| {
         *count = list_one(state, a, row, stage).unwrap_or_else(|| {
             fault.store(Fault::ListFull as u32, Ordering::Relaxed);
             0

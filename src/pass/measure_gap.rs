@@ -3,10 +3,10 @@
 //! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
+use super::rows::{GRAIN, write_rows};
 use crate::facet::{FacetPair, facing, fade, stick};
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 /// What the pass finds for one facet.
 #[derive(Clone, Copy, Default)]
@@ -36,18 +36,18 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut traction = std::mem::take(&mut own.facet_traction);
     let mut slip = if state.method.friction { own.facet_slip.clone() } else { Vec::new() };
     state.particles = own;
-    let rows = (&mut gap, &mut spread, &mut pull, &mut edge, &mut pressure, &mut energy).into_par_iter().enumerate();
-    let rows = rows.with_min_len(super::GRAIN);
+    let measured = ((&mut gap[..], &mut spread[..]), (&mut pull[..], &mut edge[..]));
+    let rows = (measured, (&mut pressure[..], &mut energy[..]));
     let found = |e: usize| if state.particles.facet_contact_count[e] > 0 { measure(state, e) } else { Contact::default() };
     if state.method.friction {
-        let rubbed = (&mut slip, &mut traction, &mut heat).into_par_iter();
-        rows.zip(rubbed).for_each(|((e, row), (slip, traction, heat))| {
+        let rubbed = (&mut slip[..], (&mut traction[..], &mut heat[..]));
+        write_rows((rows, rubbed), GRAIN, |e, (row, (slip, (traction, heat)))| {
             let contact = found(e);
             (*slip, *traction, *heat) = (contact.slip, contact.traction, contact.heat);
             contact.put(row);
         });
     } else {
-        rows.for_each(|(e, row)| found(e).put(row));
+        write_rows(rows, GRAIN, |e, row| found(e).put(row));
     }
     tell(state, &pull);
     let own = &mut state.particles;
@@ -69,10 +69,13 @@ fn tell<S: Space>(state: &mut State<S>, pulls: &[S::Real]) {
     }
 }
 
+/// Where the loop puts what every contact has: gap, spread, pull, edge, pressure and energy.
+type Measured<'c, R> = (((&'c mut R, &'c mut R), (&'c mut R, &'c mut R)), (&'c mut R, &'c mut R));
+
 impl<R: Copy, V> Contact<R, V> {
-    fn put(&self, row: (&mut R, &mut R, &mut R, &mut R, &mut R, &mut R)) {
-        (*row.0, *row.1, *row.2) = (self.gap, self.spread, self.pull);
-        (*row.3, *row.4, *row.5) = (self.edge, self.pressure, self.energy);
+    fn put(&self, (((gap, spread), (pull, edge)), (pressure, energy)): Measured<'_, R>) {
+        (*gap, *spread, *pull) = (self.gap, self.spread, self.pull);
+        (*edge, *pressure, *energy) = (self.edge, self.pressure, self.energy);
     }
 }
 

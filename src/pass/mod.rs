@@ -39,6 +39,7 @@ mod place_facets;
 mod press_facets;
 mod push_intruders;
 mod reorder;
+mod rows;
 mod runge_kutta;
 mod scan_cells;
 mod shape_force;
@@ -57,10 +58,10 @@ mod touch_obstacles;
 mod zone_force;
 
 pub use bound_residual::{force_scale, unbalanced};
+pub(crate) use rows::write;
 
 use crate::state::{Method, State};
 use crate::tensor::Space;
-use rayon::prelude::*;
 
 /// What one dispatch runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -241,15 +242,6 @@ impl Pass {
         let gaps = matches!(self, PlaceFacets | MeasureGap | PressFacets | CarryFacets | SurfaceForce);
         lists || potentials || gaps || matches!(self, MoveObstacles | TouchObstacles | LoadObstacles)
     }
-}
-
-/// Particles of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
-const GRAIN: usize = 128;
-
-/// Sets every element of a column from its index and the state, on all cores. The column must have been
-/// taken out of the state: a pass reads its neighbours' values of other columns, never of the one it writes.
-pub(crate) fn write<T: Send>(column: &mut [T], value: impl Fn(usize, &mut T) + Sync) {
-    column.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(i, slot)| value(i, slot));
 }
 
 /// Sum that hands back what rounding dropped. The shader hides the intermediate sum from the optimiser.

@@ -2,10 +2,10 @@
 //! shaders/pass/place_facets.wgsl
 
 use super::Stage;
+use super::rows::{GRAIN, Rows, write_blocks};
 use crate::facet::lever;
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -16,15 +16,23 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut normals = std::mem::take(&mut state.particles.facet_normal);
     // Facets of one particle follow each other: what they share is found once.
     let carrier = || Carrier::<S> { particle: usize::MAX, turn: S::Mat::default() };
-    let rows = (&mut displacements, &mut normals).into_par_iter().enumerate().with_min_len(super::GRAIN);
+    let places = (&mut displacements[..], &mut normals[..]);
     if state.method.friction {
-        rows.zip(&mut moves).for_each_init(carrier, |carrier, ((e, (place, direction)), step)| {
-            let before = *place;
-            (*place, *direction) = seat(state, e, carrier);
-            *step = *place - before;
+        write_blocks((places, &mut moves[..]), GRAIN, &|first, block| {
+            let mut carrier = carrier();
+            for (e, ((place, direction), step)) in (first..).zip(block.rows()) {
+                let before = *place;
+                (*place, *direction) = seat(state, e, &mut carrier);
+                *step = *place - before;
+            }
         });
     } else {
-        rows.for_each_init(carrier, |carrier, (e, (place, direction))| (*place, *direction) = seat(state, e, carrier));
+        write_blocks(places, GRAIN, &|first, block| {
+            let mut carrier = carrier();
+            for (e, (place, direction)) in (first..).zip(block.rows()) {
+                (*place, *direction) = seat(state, e, &mut carrier);
+            }
+        });
     }
     state.particles.facet_displacement = displacements;
     state.particles.facet_move = moves;

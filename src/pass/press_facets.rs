@@ -5,10 +5,10 @@
 //! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
 
 use super::Stage;
+use super::rows::{GRAIN, write_rows};
 use crate::facet::{Facing, GapForm, facing, lever};
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 /// What acts on a facet.
 #[derive(Clone, Copy, Default)]
@@ -28,8 +28,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut forces = std::mem::take(&mut state.particles.facet_force);
     let mut moments = std::mem::take(&mut state.particles.facet_moment);
-    let columns = forces.par_iter_mut().zip(&mut moments).enumerate();
-    columns.with_min_len(super::GRAIN).for_each(|(e, (force, moment))| {
+    write_rows((&mut forces[..], &mut moments[..]), GRAIN, |e, (force, moment)| {
         (*force, *moment) = if state.particles.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
     });
     state.particles.facet_force = forces;

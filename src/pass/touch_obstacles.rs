@@ -3,11 +3,11 @@
 //! shaders/pass/touch_obstacles.wgsl
 
 use super::Stage;
+use super::rows::{GRAIN, write_rows};
 use crate::facet::{FacetPair, lever, stick};
 use crate::obstacle;
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 /// What the pass finds for one facet.
 #[derive(Clone, Copy, Default)]
@@ -50,19 +50,17 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         *row.energy = *row.energy * kept + touch.energy;
         touch
     };
-    let columns = (&mut obstacle, &mut load, &mut force, &mut moment, &mut pressure, &mut energy).into_par_iter();
-    let rows = columns.enumerate().with_min_len(super::GRAIN).map(|(e, (obstacle, load, force, moment, pressure, energy))| {
-        (e, Row::<S> { obstacle, load, force, moment, pressure, energy })
-    });
+    let loads = ((&mut obstacle[..], &mut load[..]), (&mut force[..], &mut moment[..]));
+    let columns = (loads, (&mut pressure[..], &mut energy[..]));
     if friction {
-        rows.zip((&mut slip, &mut heat)).for_each(|((e, row), (slip, heat))| {
-            let touch = put(e, row, *slip);
+        write_rows((columns, (&mut slip[..], &mut heat[..])), GRAIN, |e, (row, (slip, heat))| {
+            let touch = put(e, Row::of(row), *slip);
             *slip = touch.slip;
             *heat = if added { *heat + touch.heat } else { touch.heat };
         });
     } else {
-        rows.for_each(|(e, row)| {
-            put(e, row, S::Vec::default());
+        write_rows(columns, GRAIN, |e, row| {
+            put(e, Row::of(row), S::Vec::default());
         });
     }
     let own = &mut state.particles;
@@ -78,6 +76,19 @@ struct Row<'c, S: Space> {
     moment: &'c mut S::Mat,
     pressure: &'c mut S::Real,
     energy: &'c mut S::Real,
+}
+
+/// The same as the loop gives it.
+type Written<'c, S> = (
+    ((&'c mut u32, &'c mut <S as Space>::Vec), (&'c mut <S as Space>::Vec, &'c mut <S as Space>::Mat)),
+    (&'c mut <S as Space>::Real, &'c mut <S as Space>::Real),
+);
+
+impl<'c, S: Space> Row<'c, S> {
+    #[inline(always)]
+    fn of((((obstacle, load), (force, moment)), (pressure, energy)): Written<'c, S>) -> Self {
+        Self { obstacle, load, force, moment, pressure, energy }
+    }
 }
 
 /// The obstacle that a facet is deepest in, counted from 1, its distance and its normal.

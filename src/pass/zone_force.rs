@@ -1,17 +1,16 @@
 //! Adds the acceleration by zones: what owners do to a particle, less what it does to intruders as an owner, so that
 //! momentum is kept to the last digit. Twin: shaders/pass/zone_force.wgsl
 
-use super::{GRAIN, Stage};
+use super::Stage;
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use rayon::prelude::*;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    accelerations.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, acceleration)| {
+    super::write(&mut accelerations, |a, acceleration| {
         if state.particles.contact_count[a] > 0 {
             *acceleration += sum(state, a) * (S::Real::of(1.0) / state.mass(a));
         }
