@@ -10,7 +10,7 @@
 //! stored with each distinct bond 3.7e6.
 
 use crate::pair::{mirror_vector, reference_separation};
-use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::smoothing::{LANES, Scaled};
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
 use crate::tensor::{Linear, Real, Space};
 use std::collections::HashMap;
@@ -83,8 +83,6 @@ macro_rules! with_bonds {
 }
 pub(crate) use with_bonds;
 
-const LANES: usize = 8;
-
 impl<S: Space> Source<S> for Listed {
     const IMAGES: bool = true;
     type Block<'s> = Lanes<S>;
@@ -134,7 +132,7 @@ impl<S: Space> Lanes<S> {
                 *sum += x * x;
             }
         }
-        let slope = with_kernel!(state.method.smoothing, K => slopes::<S, K>(square, h));
+        let slope = slopes(state, square, h);
         let mut gradient = x;
         for lane in 0..LANES {
             weight[lane] = weight[lane] * slope[lane];
@@ -162,14 +160,10 @@ impl<S: Space> Lanes<S> {
 
 /// (dW/dR)/R at the roots of squared distances.
 #[inline(always)]
-fn slopes<S: Space, K: Kernel>(square: [S::Real; LANES], h: S::Real) -> [S::Real; LANES] {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
-    let (inverse, factor) = (S::Real::of(1.0) / h, kernel.gradient_factor(h));
-    let mut slopes = square;
-    for slope in &mut slopes {
-        *slope = kernel.gradient_at::<K>(slope.sqrt(), h, inverse, factor);
-    }
-    slopes
+fn slopes<S: Space>(state: &State<S>, square: [S::Real; LANES], h: S::Real) -> [S::Real; LANES] {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
+    let (inverse, factor) = ([S::Real::of(1.0) / h; LANES], [kernel.gradient_factor(h); LANES]);
+    kernel.gradients(&square.map(S::Real::sqrt), &[h; LANES], &inverse, &factor)
 }
 
 /// A particle's list with the rows of its bonds.
@@ -256,13 +250,13 @@ impl<S: Space> Default for BondTable<S> {
 }
 
 impl<S: Space> BondTable<S> {
-    pub fn new<K: Kernel>(state: &State<S>) -> Self {
+    pub fn new(state: &State<S>) -> Self {
         let mut table = Self { rows: Vec::new(), place: vec![0; state.neighbors.len()] };
         let mut known = HashMap::new();
         for a in 0..state.params.count as usize {
             let first = a * state.params.list_capacity as usize;
             for (k, &entry) in state.neighbors_of(a).iter().enumerate() {
-                let (key, row) = distinct::<S, K>(state, a, entry);
+                let (key, row) = distinct(state, a, entry);
                 let place = *known.entry(key).or_insert_with(|| {
                     table.rows.push(row);
                     table.rows.len() - 1
@@ -282,7 +276,7 @@ impl<S: Space> BondTable<S> {
 }
 
 /// Place of a bond in quanta, with the neighbour's volume and the body's smoothing length; and its row.
-fn distinct<S: Space, K: Kernel>(state: &State<S>, a: usize, entry: u32) -> (([i64; 3], u64, u64), Row<S>) {
+fn distinct<S: Space>(state: &State<S>, a: usize, entry: u32) -> (([i64; 3], u64, u64), Row<S>) {
     let h = state.body(a).smoothing_length;
     let quantum = QUANTUM * h.f64();
     let mut x = reference_separation(state, a, entry);
@@ -291,8 +285,8 @@ fn distinct<S: Space, K: Kernel>(state: &State<S>, a: usize, entry: u32) -> (([i
         let whole = (x[k].f64() / quantum).round();
         (steps[k], x[k]) = (whole as i64, S::Real::of(whole * quantum));
     }
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
-    let slope = kernel.gradient::<K>(S::inner(x, x).sqrt(), h);
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
+    let slope = kernel.gradient(S::inner(x, x).sqrt(), h);
     let volume = state.particles.reference_volume[split(entry).0];
     ((steps, volume.f64().to_bits(), h.f64().to_bits()), Row::new(x, slope, volume))
 }

@@ -1,7 +1,7 @@
 //! What the loops over neighbours share: separation, mirror images, kernel gradient.
 //! Twin: shaders/lib/pair.wgsl
 
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::{LANES, Scaled};
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, Params, State};
 use crate::tensor::{Real, Space};
 
@@ -98,9 +98,6 @@ pub fn separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
     if state.method.periodic { nearest_image::<S>(&state.params, x) } else { x }
 }
 
-/// Neighbours that are evaluated together: enough for the widest vector registers.
-const LANES: usize = 8;
-
 /// Up to [`LANES`] neighbours of one particle, their kernel gradients evaluated together.
 pub struct Block<S: Space> {
     count: usize,
@@ -112,28 +109,24 @@ pub struct Block<S: Space> {
 }
 
 /// The neighbours of particle a within the kernel's support, in the order of its list, as blocks:
-/// `for block in blocks::<S, K>(state, a) { for pair in block.pairs() { … } }`.
+/// `for block in blocks(state, a) { for pair in block.pairs() { … } }`.
 ///
 /// Two plain loops, because a visitor passed as a closure is not inlined once its body is large. A list reaches
 /// beyond the support (on a cubic lattice with h = 1.22 spacings 80 entries for 56 neighbours), so entries are
 /// first sifted, without a branch; then the kernel is evaluated for the whole block, which the compiler turns
 /// into vector instructions.
 #[inline(always)]
-pub fn blocks<S: Space, K: Kernel>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<S>> {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+pub fn blocks<S: Space>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<S>> {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let h_a = state.body(a).smoothing_length;
     let own = (S::Real::of(1.0) / h_a, kernel.gradient_factor(h_a));
     let mut entries = state.neighbors_of(a);
-    std::iter::from_fn(
-        move || {
-            if entries.is_empty() { None } else { Some(next_block::<S, K>(state, a, &mut entries, kernel, h_a, own)) }
-        },
-    )
+    std::iter::from_fn(move || if entries.is_empty() { None } else { Some(next_block(state, a, &mut entries, kernel, h_a, own)) })
 }
 
 /// Takes entries until a block is full or none is left.
 #[inline(always)]
-fn next_block<S: Space, K: Kernel>(
+fn next_block<S: Space>(
     state: &State<S>,
     a: usize,
     entries: &mut &[u32],
@@ -167,15 +160,19 @@ fn next_block<S: Space, K: Kernel>(
         }
     }
     let mut distance = [S::Real::default(); LANES];
-    let mut gradient = [S::Real::default(); LANES];
-    for lane in 0..LANES {
-        distance[lane] = square[lane].sqrt();
-        gradient[lane] = kernel.gradient_at::<K>(distance[lane], h[lane], inverse[lane], factor[lane]);
+    for (distance, square) in distance.iter_mut().zip(square) {
+        *distance = square.sqrt();
     }
+    let gradient = kernel.gradients(&distance, &h, &inverse, &factor);
     Block { count, entry, x, distance, h, gradient }
 }
 
 impl<S: Space> Block<S> {
+    /// W(r, h) of each of the pairs.
+    #[inline(always)]
+    pub fn weights(&self, kernel: &Scaled<S::Real>) -> [S::Real; LANES] {
+        kernel.weights(&self.distance, &self.h)
+    }
     #[inline(always)]
     pub fn pairs(&self) -> impl Iterator<Item = Pair<S>> {
         (0..self.count).map(|lane| Pair {

@@ -12,7 +12,7 @@
 //! The particle at x is one of the b. Twin: shaders/lib/shape.wgsl, shape_node.wgsl and shape_columns.wgsl
 
 use crate::pair::{inverse_or, mirror_vector, pair_coupling, reference_separation, separation};
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::Scaled;
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
 use crate::tensor::{Real, Space};
 
@@ -48,8 +48,8 @@ pub struct Shape<S: Space> {
 
 /// The nodes of particle a, itself the last. `reference`: in the reference configuration.
 #[inline(always)]
-pub fn nodes<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool) -> impl Iterator<Item = Node<S>> {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+pub fn nodes<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iterator<Item = Node<S>> {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let entries = state.neighbors_of(a).iter().copied().chain(std::iter::once(a as u32));
     entries.map(move |entry| {
         let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
@@ -59,7 +59,7 @@ pub fn nodes<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool) -
             h = S::Real::of(0.5) * (h + state.body(b).smoothing_length);
         }
         let distance = S::inner(x, x).sqrt();
-        let (weight, slope) = (kernel.weight::<K>(distance, h), kernel.gradient::<K>(distance, h));
+        let (weight, slope) = (kernel.weight(distance, h), kernel.gradient(distance, h));
         let coupled = pair_coupling(state, a, b);
         Node { b, image, x, coupled, volume: volume(state, b, reference) * coupled, weight, slope }
     })
@@ -79,10 +79,10 @@ struct Moments<S: Space> {
 
 /// The correction where particle a is.
 #[inline(always)]
-pub fn correct<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool) -> Shape<S> {
+pub fn correct<S: Space>(state: &State<S>, a: usize, reference: bool) -> Shape<S> {
     let one = S::Real::of(1.0);
     let mut of_kernel = Moments::<S> { zeroth: S::Real::of(0.0), first: S::Vec::default(), second: S::Mat::default() };
-    for node in nodes::<S, K>(state, a, reference) {
+    for node in nodes(state, a, reference) {
         let share = node.volume * node.weight;
         of_kernel.zeroth += share;
         of_kernel.first += node.x * share;
@@ -91,7 +91,7 @@ pub fn correct<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool)
     let inverse = inverse_or_zero::<S>(of_kernel.second, state.body(a).smoothing_length);
     let slope = S::mat_vec(inverse, of_kernel.first) * -one;
     let (mut first, mut second) = (S::Vec::default(), S::Mat::default());
-    for node in nodes::<S, K>(state, a, reference) {
+    for node in nodes(state, a, reference) {
         let share = node.volume * node.slope * (one + S::inner(slope, node.x));
         first += node.x * share;
         second += S::outer(node.x, node.x * share);

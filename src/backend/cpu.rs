@@ -4,7 +4,6 @@ use super::{Backend, Columns};
 use crate::bond::BondTable;
 use crate::particles::{Field, Type};
 use crate::pass::{Call, Pass};
-use crate::smoothing::with_kernel;
 use crate::state::{Clock, State};
 use crate::step;
 use crate::tensor::{Real, Space};
@@ -29,7 +28,7 @@ impl<S: Space> Cpu<S> {
     fn tabulate(&mut self) {
         let state = &mut self.state;
         if state.method.bond_table {
-            state.bond_table = with_kernel!(state.method.smoothing, K => BondTable::new::<K>(state));
+            state.bond_table = BondTable::new(state);
             let calls = step::prepare(&state.method);
             let after: Vec<Call> =
                 calls.into_iter().filter(|call| matches!(call.pass, Pass::CorrectReference | Pass::CorrectQuadratic)).collect();

@@ -6,7 +6,7 @@ use super::Stage;
 use super::rows::{GRAIN, write_rows};
 use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
-use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::smoothing::Scaled;
 use crate::state::{ContactPair, State};
 use crate::tensor::{Real, Space};
 
@@ -41,7 +41,7 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
         }
         if pair.law == COLOUR_FIELD {
             colour = Some(pair.strength);
-            force += x * with_kernel!(state.method.smoothing, K => by_colour::<S, K>(state, pair, (a, b), distance));
+            force += x * by_colour(state, pair, (a, b), distance);
         } else if let Some(potential) = Potential::ALL.get(pair.law as usize) {
             let (stored, slope) = potential.at(distance / pair.range, pair.exponent);
             energy += half * pair.strength * stored;
@@ -56,13 +56,8 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
 }
 
 /// -k V_a V_b (<c_a - c0> + <c_b - c0>) (dW/dr)/r
-fn by_colour<S: Space, K: Kernel>(
-    state: &State<S>,
-    pair: &ContactPair<S::Real>,
-    (a, b): (usize, usize),
-    distance: S::Real,
-) -> S::Real {
+fn by_colour<S: Space>(state: &State<S>, pair: &ContactPair<S::Real>, (a, b): (usize, usize), distance: S::Real) -> S::Real {
     let (volume, excess) = (&state.particles.reference_volume, &state.particles.colour_excess);
-    let slope = Scaled::<S::Real>::new::<K>(S::DIMENSION).gradient::<K>(distance, S::Real::of(0.5) * pair.range);
+    let slope = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION).gradient(distance, S::Real::of(0.5) * pair.range);
     S::Real::of(-1.0) * pair.strength * volume[a] * volume[b] * (excess[a] + excess[b]) * slope
 }

@@ -3,8 +3,6 @@
 
 use super::Stage;
 use crate::pair::{blocks, pair_coupling, safe_inverse};
-use crate::smoothing::Kernel;
-use crate::smoothing::with_kernel;
 use crate::state::State;
 use crate::tensor::Space;
 
@@ -13,16 +11,14 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut corrections = std::mem::take(&mut state.particles.correction);
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut corrections, |a, slot| *slot = safe_inverse::<S>(moment::<S, K>(state, a)));
-    });
+    super::write(&mut corrections, |a, slot| *slot = safe_inverse::<S>(moment(state, a)));
     state.particles.correction = corrections;
 }
 
 #[inline(always)]
-fn moment<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn moment<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let mut moment = S::Mat::default();
-    for block in blocks::<S, K>(state, a) {
+    for block in blocks(state, a) {
         for pair in block.pairs() {
             let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
             moment = moment - S::outer(pair.x, pair.x * weight);

@@ -3,7 +3,6 @@
 
 use super::Stage;
 use crate::shape::{Shape, nodes, seen};
-use crate::smoothing::{Kernel, with_kernel};
 use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
 use crate::tensor::Space;
 
@@ -15,9 +14,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.method.list_follows() {
         super::write(&mut gradients, |a, slot| *slot = sum_kept(state, a));
     } else {
-        with_kernel!(state.method.smoothing, K => {
-            super::write(&mut gradients, |a, slot| *slot = sum_nodes::<S, K>(state, a));
-        });
+        super::write(&mut gradients, |a, slot| *slot = sum_nodes(state, a));
     }
     state.particles.displacement_gradient = gradients;
 }
@@ -29,10 +26,10 @@ fn difference<S: Space>(state: &State<S>, a: usize, b: usize, image: u32) -> S::
 }
 
 #[inline(always)]
-fn sum_nodes<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn sum_nodes<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let shape = Shape::of(state, a);
     let mut sum = S::Mat::default();
-    for node in nodes::<S, K>(state, a, true) {
+    for node in nodes(state, a, true) {
         let gradient = shape.gradient(node.x, node.weight, node.slope) * node.volume;
         sum += S::outer(difference(state, a, node.b, node.image), gradient);
     }

@@ -5,7 +5,6 @@
 use super::Stage;
 use crate::scene::corrected_kernel::VelocityGradient;
 use crate::shape::{Shape, nodes, seen};
-use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -19,16 +18,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     if state.method.staged() {
         let mut rates = std::mem::take(&mut state.particles.displacement_gradient_rate);
-        with_kernel!(state.method.smoothing, K => {
-            super::write(&mut rates, |a, slot| *slot = before::<S>(velocity_gradient::<S, K>(state, a), gradients[a]));
-        });
+        super::write(&mut rates, |a, slot| *slot = before::<S>(velocity_gradient(state, a), gradients[a]));
         state.particles.displacement_gradient_rate = rates;
     } else {
-        with_kernel!(state.method.smoothing, K => {
-            super::write(&mut gradients, |a, slot| {
-                let turn = exponential_less_one::<S>(velocity_gradient::<S, K>(state, a) * state.clock.step);
-                *slot += before::<S>(turn, *slot);
-            });
+        super::write(&mut gradients, |a, slot| {
+            let turn = exponential_less_one::<S>(velocity_gradient(state, a) * state.clock.step);
+            *slot += before::<S>(turn, *slot);
         });
     }
     state.particles.displacement_gradient = gradients;
@@ -51,13 +46,13 @@ fn exponential_less_one<S: Space>(a: S::Mat) -> S::Mat {
 }
 
 #[inline(always)]
-fn velocity_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn velocity_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let velocity = &state.particles.velocity;
     let printed = state.method.corrected_kernel.is_some_and(|sums| sums.velocity_gradient == VelocityGradient::Printed);
     let own = if printed { S::Vec::default() } else { velocity[a] };
     let shape = Shape::of(state, a);
     let mut sum = S::Mat::default();
-    for node in nodes::<S, K>(state, a, false) {
+    for node in nodes(state, a, false) {
         let gradient = shape.gradient(node.x, node.weight, node.slope) * node.volume;
         sum += S::outer(seen(state, node.image, velocity[node.b]) - own, gradient);
     }

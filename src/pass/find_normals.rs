@@ -5,7 +5,7 @@
 use super::Stage;
 use super::find_surface::own_neighbors;
 use crate::contact::zones::Normals;
-use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -14,23 +14,21 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         return;
     }
     let mut normals = std::mem::take(&mut state.particles.surface_normal);
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut normals, |a, slot| *slot = normal::<S, K>(state, a, stage));
-    });
+    super::write(&mut normals, |a, slot| *slot = normal(state, a, stage));
     state.particles.surface_normal = normals;
 }
 
-fn normal<S: Space, K: Kernel>(state: &State<S>, a: usize, stage: Stage) -> S::Vec {
+fn normal<S: Space>(state: &State<S>, a: usize, stage: Stage) -> S::Vec {
     let surface = &state.particles.surface;
     if surface[a] == 0 {
         return S::Vec::default();
     }
     let all = state.method.contact.zones.is_some_and(|zones| zones.normals == Normals::All);
-    let (kernel, h) = (Scaled::<S::Real>::new::<K>(S::DIMENSION), state.body(a).smoothing_length);
+    let (kernel, h) = (Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION), state.body(a).smoothing_length);
     let (mut sum, mut total) = (S::Vec::default(), S::Real::of(0.0));
     for (_, x) in own_neighbors(state, a, stage.reference).filter(|&(b, _)| all || surface[b] == 0) {
         let distance = S::inner(x, x).sqrt();
-        let weight = kernel.weight::<K>(distance, h);
+        let weight = kernel.weight(distance, h);
         sum += x * (weight / distance.max(S::Real::of(1e-6) * h));
         total += weight;
     }

@@ -11,8 +11,7 @@
 use super::Stage;
 use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
 use crate::scene::file::{ArtificialForm, Gradient};
-use crate::smoothing::with_kernel;
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -37,14 +36,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
     if !(state.method.internal_energy || state.method.dissipated_power()) {
-        with_kernel!(state.method.smoothing, K => {
-            super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a).acceleration);
-        });
+        super::write(&mut accelerations, |a, slot| *slot = sum(state, a).acceleration);
         state.particles.acceleration = accelerations;
         return;
     }
     let mut sums = vec![Sums::<S>::default(); accelerations.len()];
-    with_kernel!(state.method.smoothing, K => super::write(&mut sums, |a, slot| *slot = sum::<S, K>(state, a)));
+    super::write(&mut sums, |a, slot| *slot = sum(state, a));
     for (a, sum) in sums.iter().enumerate() {
         accelerations[a] = sum.acceleration;
         if state.method.internal_energy {
@@ -58,14 +55,15 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 }
 
 #[inline(always)]
-fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> Sums<S> {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+fn sum<S: Space>(state: &State<S>, a: usize) -> Sums<S> {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let method = &state.method;
     let half = S::Real::of(0.5);
     let own = state.particles.specific_stress.get(a).copied().unwrap_or_default();
     let mut sums = Sums::default();
-    for block in blocks::<S, K>(state, a) {
-        for pair in block.pairs() {
+    for block in blocks(state, a) {
+        let weights = if method.artificial_stress.is_some() { block.weights(&kernel) } else { Default::default() };
+        for (pair, weight) in block.pairs().zip(weights) {
             let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
             let gradient = pair.x * pair.gradient;
             let mut force = if method.gradient == Gradient::Adjoint {
@@ -75,7 +73,7 @@ fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> Sums<S> {
                 specific_stress(state, own, &pair, gradient) * mass
             };
             if method.artificial_stress.is_some() {
-                let weight = kernel.weight::<K>(pair.distance, pair.h) / state.params.artificial_weight;
+                let weight = weight / state.params.artificial_weight;
                 force += artificial_stress(state, a, &pair, gradient) * (mass * power(weight, state.params.artificial_exponent));
             }
             let mut friction = S::Vec::default();

@@ -3,7 +3,6 @@
 
 use super::Stage;
 use crate::shape::{Node, Shape, nodes};
-use crate::smoothing::with_kernel;
 use crate::state::State;
 use crate::tensor::Space;
 
@@ -13,12 +12,10 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     }
     let count = state.params.count as usize;
     let mut rows: Vec<Vec<S::Vec>> = vec![Vec::new(); count];
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut rows, |a, row| {
-            let shape = Shape::of(state, a);
-            let gradient = |node: Node<S>| shape.gradient(node.x, node.weight, node.slope) * node.volume;
-            *row = nodes::<S, K>(state, a, stage.reference).map(gradient).collect();
-        });
+    super::write(&mut rows, |a, row| {
+        let shape = Shape::of(state, a);
+        let gradient = |node: Node<S>| shape.gradient(node.x, node.weight, node.slope) * node.volume;
+        *row = nodes(state, a, stage.reference).map(gradient).collect();
     });
     for (a, row) in rows.iter().enumerate() {
         // The last is a itself, from which nothing differs.

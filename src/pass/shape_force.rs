@@ -9,7 +9,6 @@
 
 use super::Stage;
 use crate::shape::{Node, Shape, nodes, seen};
-use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -18,16 +17,14 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         return;
     }
     let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut accelerations, |a, slot| *slot = sum::<S, K>(state, a, stage.reference));
-    });
+    super::write(&mut accelerations, |a, slot| *slot = sum(state, a, stage.reference));
     state.particles.acceleration = accelerations;
 }
 
 #[inline(always)]
-fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
+fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
     let mut sum = S::Vec::default();
-    for node in nodes::<S, K>(state, a, reference) {
+    for node in nodes(state, a, reference) {
         sum += pull(state, &node);
     }
     // What volume the particle has now for each of its reference volume.

@@ -3,7 +3,6 @@
 
 use super::Stage;
 use crate::shape::{Shape, correct};
-use crate::smoothing::with_kernel;
 use crate::state::State;
 use crate::tensor::Space;
 
@@ -12,9 +11,7 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         return;
     }
     let mut shapes = vec![Shape::<S>::bare(); state.params.count as usize];
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut shapes, |a, slot| *slot = correct::<S, K>(state, a, stage.reference));
-    });
+    super::write(&mut shapes, |a, slot| *slot = correct(state, a, stage.reference));
     let p = &mut state.particles;
     for (a, shape) in shapes.into_iter().enumerate() {
         p.shape_factor[a] = shape.factor;

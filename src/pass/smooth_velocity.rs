@@ -4,8 +4,7 @@
 
 use super::Stage;
 use crate::pair::{blocks, pair_coupling, velocity_difference};
-use crate::smoothing::with_kernel;
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -14,21 +13,19 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut smoothed = std::mem::take(&mut state.particles.smoothed_velocity);
-    with_kernel!(state.method.smoothing, K => {
-        super::write(&mut smoothed, |a, slot| *slot = smooth::<S, K>(state, a));
-    });
+    super::write(&mut smoothed, |a, slot| *slot = smooth(state, a));
     state.particles.smoothed_velocity = smoothed;
 }
 
 #[inline(always)]
-fn smooth<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Vec {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+fn smooth<S: Space>(state: &State<S>, a: usize) -> S::Vec {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let mut sum = S::Vec::default();
-    for block in blocks::<S, K>(state, a) {
-        for pair in block.pairs() {
+    for block in blocks(state, a) {
+        for (pair, weight) in block.pairs().zip(block.weights(&kernel)) {
             let density = S::Real::of(0.5) * (state.density(a) + state.density(pair.b));
             let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
-            sum += velocity_difference(state, a, &pair) * (mass / density * kernel.weight::<K>(pair.distance, pair.h));
+            sum += velocity_difference(state, a, &pair) * (mass / density * weight);
         }
     }
     state.particles.velocity[a] + sum * state.params.smoothing_weight

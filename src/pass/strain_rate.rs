@@ -10,8 +10,6 @@
 use super::Stage;
 use crate::pair::{blocks, pair_coupling, safe_inverse, velocity_difference};
 use crate::scene::file::Gradient;
-use crate::smoothing::Kernel;
-use crate::smoothing::with_kernel;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -21,20 +19,18 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let corrected = state.method.gradient != Gradient::Plain;
     let mut gradients = std::mem::take(&mut state.particles.velocity_gradient);
-    with_kernel!(state.method.smoothing, K => {
-        if corrected {
-            super::write(&mut gradients, |a, slot| *slot = corrected_gradient::<S, K>(state, a));
-        } else {
-            super::write(&mut gradients, |a, slot| *slot = plain_gradient::<S, K>(state, a));
-        }
-    });
+    if corrected {
+        super::write(&mut gradients, |a, slot| *slot = corrected_gradient(state, a));
+    } else {
+        super::write(&mut gradients, |a, slot| *slot = plain_gradient(state, a));
+    }
     state.particles.velocity_gradient = gradients;
 }
 
 #[inline(always)]
-fn plain_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn plain_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
-    for block in blocks::<S, K>(state, a) {
+    for block in blocks(state, a) {
         for pair in block.pairs() {
             let weight = state.mass(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
             sum += S::outer(velocity_difference(state, a, &pair), pair.x * weight);
@@ -44,9 +40,9 @@ fn plain_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
 }
 
 #[inline(always)]
-fn corrected_gradient<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Mat {
+fn corrected_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let (mut sum, mut moment) = (S::Mat::default(), S::Mat::default());
-    for block in blocks::<S, K>(state, a) {
+    for block in blocks(state, a) {
         for pair in block.pairs() {
             let weight = state.volume(pair.b) * pair_coupling(state, a, pair.b) * pair.gradient;
             let gradient = pair.x * weight;

@@ -4,7 +4,7 @@
 use super::Stage;
 use crate::contact::COLOUR_FIELD;
 use crate::pair::separation;
-use crate::smoothing::{Kernel, Scaled, with_kernel};
+use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -13,20 +13,19 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut excess = std::mem::take(&mut state.particles.colour_excess);
-    with_kernel!(state.method.smoothing, K => super::write(&mut excess, |a, slot| *slot = sum::<S, K>(state, a)));
+    super::write(&mut excess, |a, slot| *slot = sum(state, a));
     state.particles.colour_excess = excess;
 }
 
-fn sum<S: Space, K: Kernel>(state: &State<S>, a: usize) -> S::Real {
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+fn sum<S: Space>(state: &State<S>, a: usize) -> S::Real {
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let (mut colour, mut threshold) = (S::Real::of(0.0), S::Real::of(0.0));
     for b in state.contacts_of(a) {
         let pair = state.contact_pair(a, b);
         if pair.law == COLOUR_FIELD {
             let x = separation(state, a, b as u32);
             threshold = pair.threshold;
-            colour +=
-                state.particles.reference_volume[b] * kernel.weight::<K>(S::inner(x, x).sqrt(), S::Real::of(0.5) * pair.range);
+            colour += state.particles.reference_volume[b] * kernel.weight(S::inner(x, x).sqrt(), S::Real::of(0.5) * pair.range);
         }
     }
     (colour - threshold).max(S::Real::of(0.0))

@@ -2,28 +2,27 @@
 
 use super::Stage;
 use crate::pair::{blocks, pair_coupling};
-use crate::smoothing::with_kernel;
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    with_kernel!(state.method.smoothing, K => sum::<S, K>(state));
+    sum(state);
 }
 
-fn sum<S: Space, K: Kernel>(state: &mut State<S>) {
+fn sum<S: Space>(state: &mut State<S>) {
     if state.clock.running == 0 {
         return;
     }
-    let kernel = Scaled::<S::Real>::new::<K>(S::DIMENSION);
+    let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
     super::write(&mut strain, |a, slot| {
         let body = state.body(a);
-        let mut density = state.mass(a) * kernel.weight::<K>(S::Real::of(0.0), body.smoothing_length);
-        for block in blocks::<S, K>(state, a) {
-            for pair in block.pairs() {
+        let mut density = state.mass(a) * kernel.weight(S::Real::of(0.0), body.smoothing_length);
+        for block in blocks(state, a) {
+            for (pair, weight) in block.pairs().zip(block.weights(&kernel)) {
                 let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
-                density += mass * kernel.weight::<K>(pair.distance, pair.h);
+                density += mass * weight;
             }
         }
         *slot = body.density / density - S::Real::of(1.0);

@@ -8,16 +8,16 @@ mod gaussian;
 mod quadratic;
 mod wendland;
 
-pub use cubic_spline::CubicSpline;
-pub use gaussian::Gaussian;
-pub use quadratic::Quadratic;
-pub use wendland::Wendland;
+pub(crate) use cubic_spline::CubicSpline;
+use gaussian::Gaussian;
+use quadratic::Quadratic;
+use wendland::Wendland;
 
 use crate::tensor::Real;
 use serde::{Deserialize, Serialize};
 
 /// One smoothing kernel in its dimensionless form.
-pub trait Kernel: Copy + Send + Sync + 'static {
+pub(crate) trait Kernel: Copy + Send + Sync + 'static {
     /// C_1, C_2, C_3: the integral of W over the line, the plane and space is 1.
     const NORMALISATION: [f64; 3];
     /// w(q) for 0 <= q; zero from q = 2 on.
@@ -68,11 +68,10 @@ macro_rules! kernels {
         macro_rules! with_kernel {
             ($smoothing:expr, $K:ident => $body:expr) => {
                 match $smoothing {
-                    $($crate::smoothing::Smoothing::$name => { type $K = $crate::smoothing::$name; $body })*
+                    $(Smoothing::$name => { type $K = $name; $body })*
                 }
             };
         }
-        pub(crate) use with_kernel;
     };
 }
 
@@ -83,16 +82,24 @@ kernels! {
     wendland: Wendland, "quintic C2 of Wendland 1995: no pairing of particles";
 }
 
+/// Pairs that the passes evaluate together: enough for the widest vector registers.
+pub const LANES: usize = 8;
+
 /// Kernel and its numbers for one dimension and precision, as the pair loops use it.
+///
+/// Which kernel it is, is asked at each call, not once for a whole loop: each pass is then compiled once, not once for
+/// each kernel. The loops over many pairs ask once for [`LANES`] of them.
 #[derive(Debug, Clone, Copy)]
 pub struct Scaled<R> {
+    smoothing: Smoothing,
     normalisation: R,
     dimension: usize,
 }
 
 impl<R: Real> Scaled<R> {
-    pub fn new<K: Kernel>(dimension: usize) -> Self {
-        Self { normalisation: R::of(K::NORMALISATION[dimension - 1]), dimension }
+    #[inline(always)]
+    pub fn new(smoothing: Smoothing, dimension: usize) -> Self {
+        Self { smoothing, normalisation: R::of(smoothing.normalisation(dimension)), dimension }
     }
     #[inline(always)]
     fn power(&self, h: R) -> R {
@@ -104,25 +111,43 @@ impl<R: Real> Scaled<R> {
     }
     /// W(r, h), in 1/length^D.
     #[inline(always)]
-    pub fn weight<K: Kernel>(&self, r: R, h: R) -> R {
-        self.normalisation * K::shape(r / h) / self.power(h)
+    pub fn weight(&self, r: R, h: R) -> R {
+        self.normalisation * with_kernel!(self.smoothing, K => K::shape(r / h)) / self.power(h)
+    }
+    /// [`Self::weight`] of several pairs.
+    #[inline(always)]
+    pub fn weights(&self, r: &[R; LANES], h: &[R; LANES]) -> [R; LANES] {
+        let mut weights = with_kernel!(self.smoothing, K => std::array::from_fn(|lane| K::shape(r[lane] / h[lane])));
+        for (weight, &h) in weights.iter_mut().zip(h) {
+            *weight = self.normalisation * *weight / self.power(h);
+        }
+        weights
     }
     /// (dW/dr)/r, the factor of the separation in the gradient, in 1/length^(D+2). Finite at r = 0, where a
     /// particle may meet its own mirror image.
     #[inline(always)]
-    pub fn gradient<K: Kernel>(&self, r: R, h: R) -> R {
-        self.gradient_at::<K>(r, h, R::of(1.0) / h, self.gradient_factor(h))
+    pub fn gradient(&self, r: R, h: R) -> R {
+        let (inverse, factor) = (R::of(1.0) / h, self.gradient_factor(h));
+        with_kernel!(self.smoothing, K => gradient_at::<K, R>(r, h, inverse, factor))
     }
     /// What [`Self::gradient`] needs of h alone.
     #[inline(always)]
     pub fn gradient_factor(&self, h: R) -> R {
         self.normalisation / (self.power(h) * h)
     }
-    /// The same with the parts that depend on h alone given.
+    /// [`Self::gradient`] of several pairs, with 1/h and [`Self::gradient_factor`] of each.
     #[inline(always)]
-    pub fn gradient_at<K: Kernel>(&self, r: R, h: R, inverse: R, factor: R) -> R {
-        factor * K::slope(r * inverse) / r.max(R::of(1e-6) * h)
+    pub fn gradients(&self, r: &[R; LANES], h: &[R; LANES], inverse: &[R; LANES], factor: &[R; LANES]) -> [R; LANES] {
+        with_kernel!(self.smoothing, K => {
+            std::array::from_fn(|lane| gradient_at::<K, R>(r[lane], h[lane], inverse[lane], factor[lane]))
+        })
     }
+}
+
+/// (dW/dr)/r with the parts that depend on h alone given.
+#[inline(always)]
+fn gradient_at<K: Kernel, R: Real>(r: R, h: R, inverse: R, factor: R) -> R {
+    factor * K::slope(r * inverse) / r.max(R::of(1e-6) * h)
 }
 
 #[cfg(test)]
