@@ -360,7 +360,7 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
         say(&format!("  {word:<24} {about}"));
     }
     say("obstacles");
-    for kind in crate::obstacle::Kind::ALL {
+    for kind in crate::obstacle::ObstacleKind::ALL {
         say(&format!("  {:<24} {}", kind.name(), kind.about()));
     }
     say("observables");

@@ -5,7 +5,7 @@
 //! 1. A scene file names a body, a material and a formulation. [`scene::file`] is that file as a set of structs;
 //!    [`scene::read`] merges variants and overrides into it and knows the line of every word;
 //!    [`scene::Scene`] is what comes out: particles with a place, a volume and a velocity, and the
-//!    [`state::Method`], the list of physics and numerics that this scene names.
+//!    [`method::Method`], the list of physics and numerics that this scene names.
 //! 2. [`step::fields`] says which columns the method needs: `deviatoric_stress` exists only if some material
 //!    resists shear. The columns are [`particles::Particles`], one list for host, device and files.
 //! 3. [`step::step`] is one time step as a list of passes. In leapfrog our particle's velocity is kicked
@@ -39,6 +39,7 @@ pub mod cli;
 pub mod contact;
 pub mod facet;
 pub mod material;
+pub mod method;
 pub mod observable;
 pub mod obstacle;
 pub mod output;
@@ -46,6 +47,7 @@ pub mod pair;
 pub mod particles;
 pub mod pass;
 pub mod registry;
+pub mod rows;
 pub mod run;
 pub mod scene;
 pub mod shape;

@@ -7,8 +7,8 @@ pub mod shader;
 
 use crate::particles::Field;
 use crate::pass::Call;
+use crate::rows::Clock;
 use crate::scene::Scene;
-use crate::state::Clock;
 use crate::tensor::{Line, Plane, Solid};
 use std::collections::BTreeMap;
 use std::sync::Once;

@@ -32,7 +32,7 @@ use crate::scene::file::Observe;
 use crate::scene::read::{hint, nearest};
 
 /// One kind of observable.
-pub struct Kind {
+pub struct ObservableKind {
     /// Word in a scene.
     pub word: &'static str,
     pub about: &'static str,
@@ -56,7 +56,7 @@ pub enum Value {
 pub struct Observer {
     pub name: String,
     pub typed: Observe,
-    pub kind: &'static Kind,
+    pub kind: &'static ObservableKind,
     /// Numbers of the particles that it is taken over.
     pub particles: Vec<usize>,
     /// Component along which it is taken.
@@ -64,7 +64,7 @@ pub struct Observer {
 }
 
 /// Every kind, in the order that `lithosph list` prints.
-pub static KINDS: &[Kind] = &[
+pub static KINDS: &[ObservableKind] = &[
     energy::KINETIC,
     energy::ELASTIC,
     energy::INTERNAL,

@@ -1,6 +1,6 @@
 //! Numbers found from finished series.
 
-use super::{Kind, Value};
+use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 use std::collections::BTreeMap;
 
@@ -95,7 +95,7 @@ fn ratio_of_means(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(mean(table.of(typed)?) / mean(table.over(typed)?))
 }
 
-pub const CONTACT_TIME: Kind = Kind {
+pub const CONTACT_TIME: ObservableKind = ObservableKind {
     word: "contact_time",
     about: "time from where series `of`, a speed, has fallen to 0.9 of its first value to 0.9 of its last, turned back",
     needs: &["of"],
@@ -103,7 +103,7 @@ pub const CONTACT_TIME: Kind = Kind {
     value: Value::Result(contact_time),
 };
 
-pub const SLOPE: Kind = Kind {
+pub const SLOPE: ObservableKind = ObservableKind {
     word: "slope",
     about: "slope of series `of` within the times `between`, by least squares",
     needs: &["of", "between"],
@@ -111,7 +111,7 @@ pub const SLOPE: Kind = Kind {
     value: Value::Result(|table, typed| slope(&table.of(typed)?)),
 };
 
-pub const RATIO_OF_MEANS: Kind = Kind {
+pub const RATIO_OF_MEANS: ObservableKind = ObservableKind {
     word: "ratio_of_means",
     about: "mean of series `of` over that of series `over`, within the times `between`",
     needs: &["of", "over"],
@@ -119,7 +119,7 @@ pub const RATIO_OF_MEANS: Kind = Kind {
     value: Value::Result(ratio_of_means),
 };
 
-pub const RESTITUTION: Kind = Kind {
+pub const RESTITUTION: ObservableKind = ObservableKind {
     word: "restitution",
     about: "minus the mean of the last tenth of series `of` (less `over`) over its first value",
     needs: &["of"],
@@ -127,7 +127,7 @@ pub const RESTITUTION: Kind = Kind {
     value: Value::Result(restitution),
 };
 
-pub const GROWTH_RATE: Kind = Kind {
+pub const GROWTH_RATE: ObservableKind = ObservableKind {
     word: "growth_rate",
     about: "slope of ln of series `of` within the times `between`",
     needs: &["of", "between"],
@@ -135,7 +135,7 @@ pub const GROWTH_RATE: Kind = Kind {
     value: Value::Result(growth_rate),
 };
 
-pub const RATIO: Kind = Kind {
+pub const RATIO: ObservableKind = ObservableKind {
     word: "ratio",
     about: "last value of series `of` over the last of `over`",
     needs: &["of", "over"],
@@ -146,7 +146,7 @@ pub const RATIO: Kind = Kind {
     }),
 };
 
-pub const RMS: Kind = Kind {
+pub const RMS: ObservableKind = ObservableKind {
     word: "rms",
     about: "root mean square of series `of` within the times `between`",
     needs: &["of"],
@@ -171,7 +171,7 @@ fn southwell(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(down / up)
 }
 
-pub const SOUTHWELL: Kind = Kind {
+pub const SOUTHWELL: ObservableKind = ObservableKind {
     word: "southwell",
     about: "buckling load: slope of series `of`, a deflection, against itself over series `over`, the load",
     needs: &["of", "over"],

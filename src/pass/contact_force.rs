@@ -5,8 +5,9 @@
 use super::{GRAIN, Stage};
 use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
+use crate::rows::ContactPair;
 use crate::smoothing::{Kernel, Scaled, with_kernel};
-use crate::state::{ContactPair, State};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;
 

@@ -11,7 +11,7 @@
 use super::Stage;
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::material::{self, Memory};
-use crate::scene::file::Gradient;
+use crate::method::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;

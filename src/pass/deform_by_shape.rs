@@ -2,9 +2,10 @@
 //! Twin: shaders/pass/deform_by_shape.wgsl
 
 use super::Stage;
+use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use crate::shape::{Shape, nodes, seen};
 use crate::smoothing::{Kernel, with_kernel};
-use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use crate::state::State;
 use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

@@ -3,7 +3,7 @@
 //! Both are written for H = F - 1, so that f32 keeps small strains. Twin: shaders/pass/evolve_deformation.wgsl
 
 use super::Stage;
-use crate::scene::corrected_kernel::VelocityGradient;
+use crate::method::VelocityGradient;
 use crate::shape::{Shape, nodes, seen};
 use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;

@@ -4,7 +4,8 @@
 use super::Stage;
 use super::find_neighbors::visit_cells;
 use crate::facet::facet_separation;
-use crate::state::{Fault, State};
+use crate::rows::Fault;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;
 

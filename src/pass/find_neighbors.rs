@@ -4,7 +4,8 @@
 use super::Stage;
 use super::bin_cells::{cell_of, place};
 use crate::pair::{mirror_point, reference_separation, separation};
-use crate::state::{Fault, NEIGHBOR_BITS, State};
+use crate::rows::{Fault, NEIGHBOR_BITS};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};

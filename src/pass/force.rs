@@ -9,10 +9,9 @@
 //! Twin: shaders/pass/force.wgsl
 
 use super::Stage;
+use crate::method::{ArtificialForm, Gradient};
 use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
-use crate::scene::file::{ArtificialForm, Gradient};
-use crate::smoothing::with_kernel;
-use crate::smoothing::{Kernel, Scaled};
+use crate::smoothing::{Kernel, Scaled, with_kernel};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

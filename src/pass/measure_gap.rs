@@ -3,7 +3,8 @@
 //! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
-use crate::facet::{FacetPair, facing, fade, stick};
+use crate::facet::{facing, fade, stick};
+use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;

@@ -58,7 +58,8 @@ mod zone_force;
 
 pub use bound_residual::{force_scale, unbalanced};
 
-use crate::state::{Method, State};
+use crate::method::Method;
+use crate::state::State;
 use crate::tensor::Space;
 use rayon::prelude::*;
 
@@ -71,13 +72,13 @@ pub enum Domain {
     Listed,
     /// One invocation a facet.
     Facets,
-    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] facets.
+    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] facets.
     FacetBlocks,
     /// One invocation a cell.
     Cells,
-    /// One workgroup of 256 for each [`crate::state::SCAN_BLOCK`] cells.
+    /// One workgroup of 256 for each [`crate::rows::SCAN_BLOCK`] cells.
     ScanBlocks,
-    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] particles.
+    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] particles.
     ReductionBlocks,
     /// One workgroup of 256.
     One,

@@ -5,7 +5,8 @@
 //! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
 
 use super::Stage;
-use crate::facet::{Facing, GapForm, facing, lever};
+use crate::facet::{Facing, facing, lever};
+use crate::method::GapForm;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;

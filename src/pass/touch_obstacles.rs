@@ -3,8 +3,9 @@
 //! shaders/pass/touch_obstacles.wgsl
 
 use super::Stage;
-use crate::facet::{FacetPair, lever, stick};
+use crate::facet::{lever, stick};
 use crate::obstacle;
+use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 use rayon::prelude::*;

@@ -5,13 +5,13 @@
 
 use super::contacts::{ColourField, Zones};
 use super::copies::Copies;
-use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use super::study::Groups;
 use crate::contact::Potential;
-use crate::facet::GapForm;
 use crate::material::Law;
+use crate::method::{ArtificialForm, Density, Descent, Formulation, Gradient, Integrator};
+use crate::method::{Configuration, Deformation, GapForm, VelocityGradient};
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -34,14 +34,14 @@ pub struct File {
     /// Small enough to run with the tests.
     #[serde(default)]
     pub ci: bool,
-    pub body: Vec<Body>,
-    pub material: BTreeMap<String, Material>,
+    pub body: Vec<BodyTable>,
+    pub material: BTreeMap<String, MaterialTable>,
     #[serde(default)]
-    pub formulation: Formulation,
+    pub formulation: FormulationTable,
     #[serde(default)]
-    pub contact: Vec<Contact>,
+    pub contact: Vec<ContactTable>,
     #[serde(default)]
-    pub obstacle: Vec<Obstacle>,
+    pub obstacle: Vec<ObstacleTable>,
     #[serde(default)]
     pub boundary: Vec<Boundary>,
     #[serde(default)]
@@ -83,7 +83,7 @@ impl File {
     /// than the slip lines do, at 0.1 for 9 %.
     pub fn hourglass(&self) -> f64 {
         let yields = self.body.iter().any(|body| self.material.get(&body.material).is_some_and(|m| m.law == Law::J2));
-        let usual = if self.formulation.kind != Kind::TotalLagrangian {
+        let usual = if self.formulation.kind != Formulation::TotalLagrangian {
             0.0
         } else if yields {
             0.1
@@ -113,7 +113,7 @@ pub enum Units {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Body {
+pub struct BodyTable {
     pub name: String,
     /// Name that copies share.
     #[serde(skip)]
@@ -200,7 +200,7 @@ pub struct Kick {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Material {
+pub struct MaterialTable {
     #[serde(default)]
     pub law: Law,
     pub density: f64,
@@ -228,8 +228,8 @@ pub enum Hardening {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Formulation {
-    pub kind: Kind,
+pub struct FormulationTable {
+    pub kind: Formulation,
     pub smoothing: Smoothing,
     /// h over the particle spacing.
     pub smoothing_length: f64,
@@ -268,10 +268,10 @@ pub struct Formulation {
     pub list_capacity: Option<u32>,
 }
 
-impl Default for Formulation {
+impl Default for FormulationTable {
     fn default() -> Self {
         Self {
-            kind: Kind::default(),
+            kind: Formulation::default(),
             smoothing: Smoothing::CubicSpline,
             smoothing_length: 1.3,
             density: Density::default(),
@@ -294,48 +294,11 @@ impl Default for Formulation {
     }
 }
 
-/// In which configuration the sums run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Neighbours and kernels where the particles are now; stress from rates.
-    #[default]
-    Eulerian,
-    /// Neighbours and kernels of the reference configuration, found once; stress from the deformation gradient.
-    TotalLagrangian,
-    /// Fully corrected kernels and F as a state of its own: Shutov & Klyuchantsev 2019.
-    CorrectedKernel,
-}
-
-impl Formulation {
+impl FormulationTable {
     pub fn gradient(&self) -> Gradient {
-        let usual = if self.kind == Kind::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
+        let usual = if self.kind == Formulation::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
         self.gradient.unwrap_or(usual)
     }
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Density {
-    /// From the divergence of the velocity, Fuller (2.21).
-    #[default]
-    Continuity,
-    /// From the particles' masses, Fuller (2.22): wrong at free surfaces.
-    Summation,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Gradient {
-    /// Bare kernel gradient.
-    #[default]
-    Plain,
-    /// The velocity gradient is exact for linear fields; the force is the plain one.
-    Corrected,
-    /// The force is the adjoint of the corrected velocity gradient: keeps energy and angular momentum.
-    Adjoint,
-    /// Total Lagrangian: exact for quadratic displacements, for thin parts. Needs three layers of particles.
-    Quadratic,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -366,16 +329,6 @@ fn default_exponent() -> u32 {
     4
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ArtificialForm {
-    /// epsilon |P|/rho^2 where the pressure is tensile.
-    Scalar,
-    /// On tensile principal stresses: Gray, Monaghan & Swift 2001.
-    #[default]
-    Principal,
-}
-
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ArtificialSpacing {
@@ -391,7 +344,7 @@ pub enum ArtificialSpacing {
 /// What acts between two bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Contact {
+pub struct ContactTable {
     pub between: [String; 2],
     /// 1: as if one body; 0: not at all; between: weakened. Eulerian only; 1 unless given.
     pub kernel: Option<f64>,
@@ -405,7 +358,7 @@ pub struct Contact {
     pub zones: Option<Zones>,
 }
 
-impl Contact {
+impl ContactTable {
     /// Some law is named beside the kernel.
     pub fn touches(&self) -> bool {
         self.potential.is_some() || self.colour_field.is_some() || self.zones.is_some()
@@ -462,7 +415,7 @@ pub enum ObstacleShape {
 /// A rigid surface that bodies cannot enter.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Obstacle {
+pub struct ObstacleTable {
     pub name: String,
     pub shape: ObstacleShape,
     /// Velocity: at the start if it has a mass, else prescribed; at rest unless given.
@@ -585,32 +538,6 @@ fn default_residual() -> f64 {
 
 fn default_most_steps() -> u32 {
     100_000
-}
-
-/// How equilibrium is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Descent {
-    /// Fast inertial relaxation engine: Bitzek et al. 2006.
-    #[default]
-    Fire,
-    /// Velocities are set to zero at each peak of the kinetic energy: Cundall 1982.
-    KineticDamping,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integrator {
-    /// Kick-drift-kick: one force a step, second order, symplectic for elastic bodies.
-    Leapfrog,
-    /// Heun.
-    Rk2,
-    /// Shu & Osher's third order: each stage an average of Euler steps.
-    SspRk3,
-    /// The classical fourth order.
-    Rk4,
-    /// Omelyan, Mryglod & Folk 2002: symplectic, fourth order, four forces a step.
-    Pefrl,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

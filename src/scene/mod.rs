@@ -23,10 +23,9 @@ pub mod study;
 mod surfaces;
 mod words;
 
-use crate::facet::FacetPair;
 use crate::material::Law;
-use crate::obstacle;
-use crate::state::{ContactPair, Method};
+use crate::method::Method;
+use crate::rows::{ContactPair, FacetPair, Obstacle};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -41,17 +40,17 @@ pub struct Scene {
     /// What is stored as `run.toml`.
     pub text: String,
     pub method: Method,
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<SceneBody>,
     /// Weight of the kernel sums between bodies a and b.
     pub coupling: Vec<Vec<f64>>,
     /// How bodies a and b touch.
     pub contacts: Vec<Vec<ContactPair<f64>>>,
     /// How the surfaces of bodies a and b touch.
     pub facet_pairs: Vec<Vec<FacetPair<f64>>>,
-    pub obstacles: Vec<Obstacle>,
+    pub obstacles: Vec<SceneObstacle>,
     /// In order of the numbers of the particles that carry them; none where nothing touches by surfaces.
-    pub facets: Vec<Facet>,
-    pub constraints: Vec<Constraint>,
+    pub facets: Vec<SceneFacet>,
+    pub constraints: Vec<SceneConstraint>,
     /// In order of their numbers.
     pub particles: Vec<Particle>,
     /// Period of each axis, 0 where open.
@@ -65,7 +64,7 @@ pub struct Scene {
 
 /// A body's numbers.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub struct SceneBody {
     pub name: String,
     /// Name that it shares with its copies, or its own.
     pub group: String,
@@ -86,7 +85,7 @@ pub struct Body {
     pub deviator: [f64; 6],
 }
 
-impl Body {
+impl SceneBody {
     pub fn youngs_modulus(&self) -> f64 {
         9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
     }
@@ -111,9 +110,9 @@ pub struct Particle {
 
 /// A rigid obstacle.
 #[derive(Debug, Clone)]
-pub struct Obstacle {
+pub struct SceneObstacle {
     pub name: String,
-    pub shape: obstacle::Obstacle<f64>,
+    pub shape: Obstacle<f64>,
     /// At the start, or throughout where it is prescribed.
     pub velocity: DVec3,
     /// 0 where the motion is prescribed.
@@ -126,14 +125,14 @@ pub struct Obstacle {
 
 /// A piece of a body's surface, and the number of the particle that carries it.
 #[derive(Debug, Clone, Copy)]
-pub struct Facet {
+pub struct SceneFacet {
     pub owner: u32,
     pub piece: facets::Facet,
 }
 
 /// A boundary condition.
 #[derive(Debug, Clone)]
-pub struct Constraint {
+pub struct SceneConstraint {
     pub name: String,
     /// Axes along which the velocity is prescribed.
     pub prescribed: [bool; 3],
