@@ -50,7 +50,7 @@ pub mod registry;
 pub mod rows;
 pub mod run;
 pub mod scene;
-pub mod shape;
+pub mod shape_function;
 pub mod smoothing;
 pub mod state;
 pub mod step;

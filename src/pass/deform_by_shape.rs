@@ -3,7 +3,7 @@
 
 use super::Stage;
 use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
-use crate::shape::{Shape, nodes, seen};
+use crate::shape_function::{Shape, nodes, seen};
 use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::Space;

@@ -4,7 +4,7 @@
 
 use super::Stage;
 use crate::method::VelocityGradient;
-use crate::shape::{Shape, nodes, seen};
+use crate::shape_function::{Shape, nodes, seen};
 use crate::smoothing::{Kernel, with_kernel};
 use crate::state::State;
 use crate::tensor::{Real, Space};
