@@ -6,7 +6,6 @@ use crate::contact::zones::Normals;
 use crate::method::{ArtificialForm, Density, Formulation, Gradient, Integrator, Method};
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
-use crate::registry::Registry;
 
 fn call(pass: Pass) -> Call {
     Call { pass, stage: Stage::default() }
@@ -347,14 +346,12 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
 }
 
 /// Fields that the passes of this method read or write, and no others, in the order of their list.
-///
-/// # Panics
-/// Never: the full registry holds every field.
 pub fn fields(method: &Method) -> Vec<Field> {
-    Registry::full().fields(method).unwrap_or_else(|wrong| panic!("{wrong}"))
+    let needed = needed_fields(method);
+    Field::ALL.iter().copied().filter(|field| needed.contains(field)).collect()
 }
 
-/// The same in no order, before a registry has been asked for them; some come twice.
+/// The same in no order; some come twice.
 pub fn needed_fields(method: &Method) -> Vec<Field> {
     use Field::*;
     let staged = method.staged();
