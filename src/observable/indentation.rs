@@ -4,7 +4,7 @@
 //! Source: Oliver & Pharr, J. Mater. Res. 7 (1992) 1564, reviewed in J. Mater. Res. 19 (2004) 3.
 
 use super::power_law::{PowerLaw, fit};
-use super::result::Table;
+use super::table::Table;
 use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! Numbers of a series that swings, found from a finished run: period, frequency, middle, amplitude.
 
-use super::result::Table;
+use super::table::Table;
 use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 

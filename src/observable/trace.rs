@@ -1,6 +1,6 @@
 //! The path of a point, for comparison with one of a reference.
 
-use super::result::Table;
+use super::table::Table;
 use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 
