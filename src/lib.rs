@@ -28,6 +28,9 @@
 //!
 //! # What is deliberately absent
 //!
+//! Files import each other in no large circle: [`method`] and [`rows`], the words and the numbers of a run, lie below
+//! everything that reads them.
+//!
 //! A pass writes to particle (cell, block) i only. There are no float atomics: the same run gives the same bits
 //! on the same device. [`scene`] knows no device, observables never touch one, and the host never waits inside
 //! the step loop.
@@ -42,6 +45,7 @@ pub mod material;
 pub mod method;
 pub mod observable;
 pub mod obstacle;
+mod open;
 pub mod output;
 pub mod pair;
 pub mod particles;

@@ -1,61 +1,12 @@
 //! How bodies touch: from what is typed to the table of pairs of bodies.
 
-use super::file::{ContactTable, File, PairPotential};
-use super::resolve::Refuse;
+use super::file::{ColourField, ContactTable, File, PairPotential, Zones};
+use super::refuse::Refuse;
 use super::{Scene, SceneBody, copies};
-use crate::contact::zones::{Form, Normals, Options};
+use crate::contact::zones::Options;
 use crate::contact::{COLOUR_FIELD, Laws, Potential, ZONES, repulsive};
 use crate::method::{Formulation, Integrator};
 use crate::rows::ContactPair;
-use serde::{Deserialize, Serialize};
-
-/// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ColourField {
-    /// k over the lowest Young's modulus of the scene.
-    pub stiffness: f64,
-    /// c0, between 0 and 1: a half where a particle lies on the other body's surface.
-    pub threshold: f64,
-    /// Support of the kernel, in spacings.
-    pub range: f64,
-}
-
-/// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Zones {
-    /// R, half the side of a zone, in spacings.
-    pub radius: f64,
-    /// Force at which (4.2) is 1, over the lower Young's modulus times a spacing (in space its square); 1 as Fuller has it.
-    #[serde(default = "one")]
-    pub stiffness: f64,
-    #[serde(default)]
-    pub form: Form,
-    #[serde(default)]
-    pub normals: Normals,
-    /// A particle lies on the surface with this share of the most neighbours, or less.
-    #[serde(default = "default_surface")]
-    pub surface: f64,
-    /// And at a corner with this share: there zones have several normals.
-    #[serde(default = "default_corner")]
-    pub corner: f64,
-    /// mu of (4.3).
-    #[serde(default)]
-    pub friction: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn default_surface() -> f64 {
-    0.75
-}
-
-fn default_corner() -> f64 {
-    0.5
-}
 
 fn zones(file: &File) -> Option<&Zones> {
     file.contact.iter().find_map(|contact| contact.zones.as_ref())

@@ -1,19 +1,9 @@
 //! Copies of a body on a grid, each a body of its own, known together by the name that was typed.
 
 use super::SceneBody;
-use super::file::{self, File};
+use super::file::{self, Copies, File};
 use super::shape::{Coordinates, Shape};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
-
-/// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Copies {
-    pub count: Vec<u32>,
-    /// Width of the gaps.
-    pub apart: Coordinates,
-}
 
 /// More bodies than this are a slip: the tables of pairs grow with the square.
 const MOST: u64 = 10_000;

@@ -2,7 +2,7 @@
 //! what is usual where nothing is typed.
 
 use super::file::{File, FormulationTable};
-use super::resolve::Refuse;
+use super::refuse::Refuse;
 use crate::method::{Configuration, CorrectedKernel, Deformation, Formulation};
 
 /// The paper's own choice: corrected sums in the current configuration, F from its rate.

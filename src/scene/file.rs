@@ -3,12 +3,11 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
-use super::contacts::{ColourField, Zones};
-use super::copies::Copies;
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use super::study::Groups;
 use crate::contact::Potential;
+use crate::contact::zones::{Form, Normals};
 use crate::material::Law;
 use crate::method::{ArtificialForm, Density, Descent, Formulation, Gradient, Integrator};
 use crate::method::{Configuration, Deformation, GapForm, VelocityGradient};
@@ -142,6 +141,15 @@ pub struct BodyTable {
     pub relative_volume: Option<f64>,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
     pub deviatoric_stress: Option<[f64; 6]>,
+}
+
+/// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Copies {
+    pub count: Vec<u32>,
+    /// Width of the gaps.
+    pub apart: Coordinates,
 }
 
 /// A velocity field that varies over a body.
@@ -363,6 +371,54 @@ impl ContactTable {
     pub fn touches(&self) -> bool {
         self.potential.is_some() || self.colour_field.is_some() || self.zones.is_some()
     }
+}
+
+/// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourField {
+    /// k over the lowest Young's modulus of the scene.
+    pub stiffness: f64,
+    /// c0, between 0 and 1: a half where a particle lies on the other body's surface.
+    pub threshold: f64,
+    /// Support of the kernel, in spacings.
+    pub range: f64,
+}
+
+/// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Zones {
+    /// R, half the side of a zone, in spacings.
+    pub radius: f64,
+    /// Force at which (4.2) is 1, over the lower Young's modulus times a spacing (in space its square); 1 as Fuller has it.
+    #[serde(default = "one")]
+    pub stiffness: f64,
+    #[serde(default)]
+    pub form: Form,
+    #[serde(default)]
+    pub normals: Normals,
+    /// A particle lies on the surface with this share of the most neighbours, or less.
+    #[serde(default = "default_surface")]
+    pub surface: f64,
+    /// And at a corner with this share: there zones have several normals.
+    #[serde(default = "default_corner")]
+    pub corner: f64,
+    /// mu of (4.3).
+    #[serde(default)]
+    pub friction: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn default_surface() -> f64 {
+    0.75
+}
+
+fn default_corner() -> f64 {
+    0.5
 }
 
 /// Energy of facets that are in another body's surface: see `src/facet.rs`.

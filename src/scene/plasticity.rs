@@ -2,7 +2,7 @@
 
 use super::SceneBody;
 use super::file::{File, Hardening, MaterialTable};
-use super::resolve::Refuse;
+use super::refuse::Refuse;
 use crate::material::Law;
 use crate::method::Formulation;
 

@@ -2,7 +2,7 @@
 
 use super::SceneBody;
 use super::file::{File, QuasiStatic};
-use super::resolve::{MOST_OUTPUTS, Refuse};
+use super::refuse::{MOST_OUTPUTS, Refuse};
 use crate::material::Law;
 use crate::method::{Formulation, Integrator};
 

@@ -4,7 +4,8 @@ use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
 use super::file::{ArtificialSpacing, Axis, File, Fixed};
 use super::packing::fill;
-use super::read::{Read, Source, hint};
+use super::read::{Read, hint};
+use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
 use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
@@ -13,7 +14,11 @@ use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, M
 use glam::DVec3;
 use std::sync::OnceLock;
 
-pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
+/// A scene from what was read. Whether it can give what it is asked to observe, [`Scene::open`] looks at.
+///
+/// # Errors
+/// One sentence that begins with the place of what is impossible.
+pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let Read { mut file, source, variant, resolved_text: text, .. } = read;
     let typed_at = expand(&mut file)
         .map_err(|(k, message)| Refuse { source: &source, typed_at: &[] }.at(&["body", &k.to_string(), "copies"], message))?;
@@ -32,7 +37,7 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let facets = parts.facets(&facet_pairs, &obstacles);
     let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
     let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
-    let scene = Scene {
+    Ok(Scene {
         name,
         variant,
         file,
@@ -50,35 +55,8 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         planes,
         artificial_spacing,
         most_bonds: OnceLock::new(),
-    };
-    crate::observable::check(&scene, |path, message| refuse.at(path, message))?;
-    Ok(scene)
+    })
 }
-
-/// Makes the sentences of refusals.
-pub(super) struct Refuse<'a> {
-    source: &'a Source,
-    /// For each body, copies among them, the place where it was typed.
-    typed_at: &'a [usize],
-}
-
-impl Refuse<'_> {
-    pub(super) fn at(&self, path: &[&str], message: impl Into<String>) -> String {
-        let body = path.get(1).filter(|_| path[0] == "body").and_then(|at| at.parse().ok());
-        let typed = body.and_then(|k: usize| self.typed_at.get(k)).map(usize::to_string);
-        let mut path = path.to_vec();
-        if let Some(typed) = &typed {
-            path[1] = typed;
-        }
-        format!("{}: {}", self.source.place(&path), message.into())
-    }
-    pub(super) fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
-        if holds { Ok(()) } else { Err(self.at(path, message())) }
-    }
-}
-
-/// A slip in the unit of time is refused at once instead of filling the memory with rows.
-pub(super) const MOST_OUTPUTS: f64 = 1e6;
 
 /// Single numbers that must lie in a range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {

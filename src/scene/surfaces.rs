@@ -3,7 +3,7 @@
 use super::copies::{named, pairs};
 use super::facets::{facets, owners};
 use super::file::{self, ObstacleShape, SurfaceGap};
-use super::resolve::Refuse;
+use super::refuse::Refuse;
 use super::shape::{Coordinates, used};
 use super::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 use crate::facet::full_weight;
