@@ -1,6 +1,7 @@
 //! Words of `lithosph study accuracy` and of `lithosph study recommend`.
 
-use super::{PlaceWord, say};
+use super::place::PlaceWord;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::accuracy::{self, Cost, ErrorKind, Request};
 use clap::Args;
