@@ -10,8 +10,9 @@
 //! stored with each distinct bond 3.7e6.
 
 use crate::pair::{mirror_vector, reference_separation};
+use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use crate::smoothing::{LANES, Scaled};
-use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use crate::state::State;
 use crate::tensor::{Linear, Real, Space};
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,5 +1,6 @@
 //! Command line: words, and the table of commands.
 
+mod say;
 mod study;
 
 use crate::backend::Choice;
@@ -7,7 +8,7 @@ use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
 use crate::{check, contact, material, observable, particles, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::io::Write;
+use say::say;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -156,11 +157,6 @@ struct RenderArgs {
     /// Paint on the GPU even if it is a software one.
     #[arg(long)]
     gpu: bool,
-}
-
-/// Prints to a reader that may be gone: `lithosph list | head` is no error.
-fn say(text: &str) {
-    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Does what the command line says; gives the exit code.
@@ -360,7 +356,7 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
         say(&format!("  {word:<24} {about}"));
     }
     say("obstacles");
-    for kind in crate::obstacle::Kind::ALL {
+    for kind in crate::obstacle::ObstacleKind::ALL {
         say(&format!("  {:<24} {}", kind.name(), kind.about()));
     }
     say("observables");

@@ -16,39 +16,6 @@
 
 use crate::state::State;
 use crate::tensor::{Real, Space};
-use serde::{Deserialize, Serialize};
-
-/// How the facets of two bodies, or of a body and an obstacle, touch. Twin: `FacetPair` in `shaders/lib/params.wgsl`.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[repr(C)]
-pub struct FacetPair<R> {
-    /// Pressure over depth; 0 where they do not touch.
-    pub stiffness: R,
-    /// Distance R from a facet at which its weight ends; 0 for an obstacle.
-    pub range: R,
-    /// Sum of weights D_0 below which the energy fades.
-    pub full: R,
-    /// Coefficient of friction.
-    pub friction: R,
-}
-
-impl FacetPair<f64> {
-    pub fn map<R: Real>(&self, real: impl Fn(f64) -> R) -> FacetPair<R> {
-        let [stiffness, range, full, friction] = [self.stiffness, self.range, self.full, self.friction].map(real);
-        FacetPair { stiffness, range, full, friction }
-    }
-}
-
-/// Which terms of the force act.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GapForm {
-    /// All: the derivative of the energy.
-    #[default]
-    Potential,
-    /// Those along the normals: neither energy nor angular momentum is kept.
-    AlongNormals,
-}
 
 /// Part of the sum of weights on a flat face below which the energy fades.
 const FULL: f64 = 0.3;

@@ -5,7 +5,7 @@
 //! 1. A scene file names a body, a material and a formulation. [`scene::file`] is that file as a set of structs;
 //!    [`scene::read`] merges variants and overrides into it and knows the line of every word;
 //!    [`scene::Scene`] is what comes out: particles with a place, a volume and a velocity, and the
-//!    [`state::Method`], the list of physics and numerics that this scene names.
+//!    [`method::Method`], the list of physics and numerics that this scene names.
 //! 2. [`step::fields`] says which columns the method needs: `deviatoric_stress` exists only if some material
 //!    resists shear. The columns are [`particles::Particles`], one list for host, device and files.
 //! 3. [`step::step`] is one time step as a list of passes. In leapfrog our particle's velocity is kicked
@@ -28,6 +28,9 @@
 //!
 //! # What is deliberately absent
 //!
+//! Files import each other in no large circle: [`method`] and [`rows`], the words and the numbers of a run, lie below
+//! everything that reads them.
+//!
 //! A pass writes to particle (cell, block) i only. There are no float atomics: the same run gives the same bits
 //! on the same device. [`scene`] knows no device, observables never touch one, and the host never waits inside
 //! the step loop.
@@ -39,16 +42,19 @@ pub mod cli;
 pub mod contact;
 pub mod facet;
 pub mod material;
+pub mod method;
 pub mod observable;
 pub mod obstacle;
+mod open;
 pub mod output;
 pub mod pair;
 pub mod particles;
 pub mod pass;
 pub mod registry;
+pub mod rows;
 pub mod run;
 pub mod scene;
-pub mod shape;
+pub mod shape_function;
 pub mod smoothing;
 pub mod state;
 pub mod step;

@@ -6,6 +6,7 @@
 //! gap would be wrong by EPSILON radius, where from the surface it is wrong by EPSILON times the distance of the point
 //! from there). `axis` leads from that point into the obstacle, but away from a plane.
 
+use crate::rows::Obstacle;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -16,16 +17,16 @@ macro_rules! kinds {
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(rename_all = "snake_case")]
         #[repr(u32)]
-        pub enum Kind { $($(#[$attribute])* $name),* }
+        pub enum ObstacleKind { $($(#[$attribute])* $name),* }
 
-        impl Kind {
-            pub const ALL: &'static [Kind] = &[$(Kind::$name),*];
+        impl ObstacleKind {
+            pub const ALL: &'static [ObstacleKind] = &[$(ObstacleKind::$name),*];
             /// Word in a scene.
             pub fn name(self) -> &'static str {
-                match self { $(Kind::$name => stringify!($word)),* }
+                match self { $(ObstacleKind::$name => stringify!($word)),* }
             }
             pub fn about(self) -> &'static str {
-                match self { $(Kind::$name => $about),* }
+                match self { $(ObstacleKind::$name => $about),* }
             }
         }
     };
@@ -41,13 +42,13 @@ kinds! {
     berkovich: Berkovich, "a pyramid of three faces at the same angle to the axis: 3D only";
 }
 
-impl Kind {
+impl ObstacleKind {
     /// Whether a scene of this dimension can have one.
     pub fn fits(self, dimension: usize) -> bool {
         match self {
-            Kind::Plane | Kind::Sphere => true,
-            Kind::Cylinder | Kind::Cone => dimension > 1,
-            Kind::Berkovich => dimension == 3,
+            ObstacleKind::Plane | ObstacleKind::Sphere => true,
+            ObstacleKind::Cylinder | ObstacleKind::Cone => dimension > 1,
+            ObstacleKind::Berkovich => dimension == 3,
         }
     }
 }
@@ -56,36 +57,10 @@ impl Kind {
 /// Vickers' pyramid: Oliver & Pharr, J. Mater. Res. 7 (1992) 1564. The 24.56 h^2 in use elsewhere are those of 65.3.
 pub const BERKOVICH: f64 = 65.27;
 
-/// A rigid body. Twin: `Obstacle` in `shaders/lib/obstacle.wgsl`.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[repr(C)]
-pub struct Obstacle<R> {
-    /// Number of the [`Kind`].
-    pub kind: u32,
-    pub padding: u32,
-    /// Where it stands (m): a point of its surface. [`distance`] takes points relative to this.
-    pub point_x: R,
-    pub point_y: R,
-    pub point_z: R,
-    /// Of length 1; from the point into the obstacle, for a plane its outward normal.
-    pub axis_x: R,
-    pub axis_y: R,
-    pub axis_z: R,
-    /// Of length 1, across the axis: the direction of a cylinder, or that in which the first face of a pyramid looks.
-    pub turn_x: R,
-    pub turn_y: R,
-    pub turn_z: R,
-    /// Of a sphere or cylinder (m).
-    pub radius: R,
-    /// Of the angle between the axis and the surface of a cone or pyramid.
-    pub cosine: R,
-    pub sine: R,
-}
-
 impl Obstacle<f64> {
     /// `axis` and `turn` have any length; what `turn` has along the axis is taken off, and where nothing is left any
     /// direction across the axis serves. `half_angle` in degrees.
-    pub fn new(kind: Kind, point: DVec3, [axis, turn]: [DVec3; 2], radius: f64, half_angle: f64) -> Self {
+    pub fn new(kind: ObstacleKind, point: DVec3, [axis, turn]: [DVec3; 2], radius: f64, half_angle: f64) -> Self {
         let axis = axis.normalize();
         let turn = turn.reject_from_normalized(axis).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
         let (sine, cosine) = half_angle.to_radians().sin_cos();
@@ -126,12 +101,12 @@ impl Obstacle<f64> {
 pub fn distance<S: Space>(obstacle: &Obstacle<S::Real>, x: S::Vec) -> (S::Real, S::Vec) {
     let axis = vector::<S>([obstacle.axis_x, obstacle.axis_y, obstacle.axis_z]);
     let turn = vector::<S>([obstacle.turn_x, obstacle.turn_y, obstacle.turn_z]);
-    match Kind::ALL[obstacle.kind as usize] {
-        Kind::Plane => (S::inner(x, axis), axis),
-        Kind::Sphere => ball::<S>(x, axis, obstacle.radius),
-        Kind::Cylinder => ball::<S>(x - turn * S::inner(x, turn), axis, obstacle.radius),
-        Kind::Cone => cone::<S>(obstacle, x, axis),
-        Kind::Berkovich => pyramid::<S>(obstacle, x, [axis, turn]),
+    match ObstacleKind::ALL[obstacle.kind as usize] {
+        ObstacleKind::Plane => (S::inner(x, axis), axis),
+        ObstacleKind::Sphere => ball::<S>(x, axis, obstacle.radius),
+        ObstacleKind::Cylinder => ball::<S>(x - turn * S::inner(x, turn), axis, obstacle.radius),
+        ObstacleKind::Cone => cone::<S>(obstacle, x, axis),
+        ObstacleKind::Berkovich => pyramid::<S>(obstacle, x, [axis, turn]),
     }
 }
 

@@ -1,8 +1,9 @@
 //! What the loops over neighbours share: separation, mirror images, kernel gradient.
 //! Twin: shaders/lib/pair.wgsl
 
+use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK, Params};
 use crate::smoothing::{LANES, Scaled};
-use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, Params, State};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// A neighbour as particle a sees it.

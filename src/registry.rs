@@ -7,10 +7,10 @@
 use crate::backend::shader;
 use crate::contact::Potential;
 use crate::material::Law;
+use crate::method::Method;
 use crate::particles::Field;
 use crate::pass::Pass;
 use crate::smoothing::Smoothing;
-use crate::state::Method;
 use crate::step;
 use std::fmt::Write as _;
 use std::sync::LazyLock;

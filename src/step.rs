@@ -3,11 +3,9 @@
 mod corrected_kernel;
 
 use crate::contact::zones::Normals;
+use crate::method::{ArtificialForm, Density, Formulation, Gradient, Integrator, Method};
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
-use crate::registry::Registry;
-use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
-use crate::state::Method;
 
 fn call(pass: Pass) -> Call {
     Call { pass, stage: Stage::default() }
@@ -36,7 +34,7 @@ fn force(method: &Method, calls: &mut Vec<Call>) {
         corrected_kernel::force(options, calls);
         return;
     }
-    if method.kind == Kind::TotalLagrangian {
+    if method.formulation == Formulation::TotalLagrangian {
         calls.push(call(Pass::Deform));
         press_surfaces(method, calls);
         calls.push(call(Pass::BondForce));
@@ -72,7 +70,7 @@ fn contact(method: &Method, calls: &mut Vec<Call>) {
     }
     if let Some(zones) = method.contact.zones {
         if zones.normals != Normals::Initial {
-            find_surface(method.kind == Kind::TotalLagrangian, false, calls);
+            find_surface(method.formulation == Formulation::TotalLagrangian, false, calls);
         }
         calls.extend([Pass::PushIntruders, Pass::ZoneForce].map(call));
     }
@@ -111,7 +109,7 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     if let Some(options) = method.corrected_kernel {
         corrected_kernel::prepare(options, &mut calls);
     }
-    if method.kind == Kind::TotalLagrangian {
+    if method.formulation == Formulation::TotalLagrangian {
         order(true, &mut calls);
         if method.gradient != Gradient::Plain {
             calls.push(call(Pass::CorrectReference));
@@ -125,11 +123,11 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     }
     if let Some(zones) = method.contact.zones {
         let initial = zones.normals == Normals::Initial;
-        if method.kind == Kind::Eulerian && initial {
+        if method.formulation == Formulation::Eulerian && initial {
             // In the order that they have, so that a resumed run sums as an unbroken one.
             list(true, &mut calls);
         }
-        if method.kind == Kind::TotalLagrangian || initial {
+        if method.formulation == Formulation::TotalLagrangian || initial {
             find_surface(false, true, &mut calls);
         }
     }
@@ -142,7 +140,7 @@ pub fn begin_segment(method: &Method) -> Vec<Call> {
     if let Some(options) = method.corrected_kernel {
         corrected_kernel::begin_segment(options, &mut calls);
     }
-    if method.kind == Kind::Eulerian {
+    if method.formulation == Formulation::Eulerian {
         sort(false, &mut calls);
         calls.push(call(Pass::Reorder));
         list_present(method, &mut calls);
@@ -239,7 +237,7 @@ fn leapfrog(method: &Method) -> Vec<Call> {
         calls.push(at(Pass::Kick, 1.0));
         return calls;
     }
-    if method.kind == Kind::TotalLagrangian {
+    if method.formulation == Formulation::TotalLagrangian {
         calls.push(drift_by(1.0));
         move_obstacles(method, &mut calls);
         force(method, &mut calls);
@@ -302,7 +300,7 @@ const CLASSICAL: [Stage; 4] = [
 ];
 
 fn runge_kutta(method: &Method, stages: &[Stage]) -> Vec<Call> {
-    let eulerian = method.kind == Kind::Eulerian;
+    let eulerian = method.formulation == Formulation::Eulerian;
     let mut calls = Vec::new();
     if method.list_follows() {
         list_present(method, &mut calls);
@@ -333,8 +331,8 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
     let mut calls = Vec::new();
     let behind = method.integrator != Integrator::Leapfrog;
     let integrated = method.corrected_kernel.is_some_and(|options| options.evolved());
-    let dependent = match method.kind {
-        Kind::Eulerian => &[Field::ContactEnergy][..],
+    let dependent = match method.formulation {
+        Formulation::Eulerian => &[Field::ContactEnergy][..],
         _ if integrated => &[Field::Acceleration],
         _ => &[Field::Acceleration, Field::ContactEnergy, Field::DisplacementGradient],
     };
@@ -348,19 +346,17 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
 }
 
 /// Fields that the passes of this method read or write, and no others, in the order of their list.
-///
-/// # Panics
-/// Never: the full registry holds every field.
 pub fn fields(method: &Method) -> Vec<Field> {
-    Registry::full().fields(method).unwrap_or_else(|wrong| panic!("{wrong}"))
+    let needed = needed_fields(method);
+    Field::ALL.iter().copied().filter(|field| needed.contains(field)).collect()
 }
 
-/// The same in no order, before a registry has been asked for them; some come twice.
+/// The same in no order; some come twice.
 pub fn needed_fields(method: &Method) -> Vec<Field> {
     use Field::*;
     let staged = method.staged();
-    let eulerian = method.kind == Kind::Eulerian;
-    let lagrangian = method.kind == Kind::TotalLagrangian;
+    let eulerian = method.formulation == Formulation::Eulerian;
+    let lagrangian = method.formulation == Formulation::TotalLagrangian;
     let adjoint = method.gradient == Gradient::Adjoint;
     let continuity = eulerian && method.density == Density::Continuity;
     let shear = eulerian && method.shear;

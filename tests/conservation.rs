@@ -2,10 +2,10 @@
 //! run for a short while; what its physics gives is the business of `scenes.rs`.
 
 use lithosph::backend::{Choice, Columns, open};
+use lithosph::method::Gradient;
 use lithosph::observable::Moment;
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
-use lithosph::scene::file::Gradient;
 use std::path::{Path, PathBuf};
 
 const FIELDS: [Field; 4] = [Field::Number, Field::ReferenceVolume, Field::Displacement, Field::Velocity];

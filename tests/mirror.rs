@@ -1,10 +1,10 @@
 //! The host's structures against their twins in `shaders/lib/params.wgsl`: same members, same offsets, same size.
 
 use lithosph::backend::shader::{compose, offsets};
-use lithosph::facet::FacetPair;
+use lithosph::method::Method;
 use lithosph::pass::Pass;
+use lithosph::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Params};
 use lithosph::scene::Scene;
-use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Method, Mover, Params};
 use std::mem::offset_of;
 
 /// The text of a pass that uses every structure.

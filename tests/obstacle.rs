@@ -5,7 +5,8 @@ mod common;
 use common::{Random, adapter};
 use glam::DVec3;
 use lithosph::backend::shader::{Choice, compose_text, offsets};
-use lithosph::obstacle::{BERKOVICH, Kind, Obstacle, distance};
+use lithosph::obstacle::{BERKOVICH, ObstacleKind, distance};
+use lithosph::rows::Obstacle;
 use lithosph::tensor::{Line, Plane, Solid, Space};
 use std::mem::offset_of;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -107,7 +108,7 @@ fn agree<W: Space<Real = f64>, N: Space<Real = f32>>(adapter: &wgpu::Adapter) {
         2 => [direction().with_z(0.0), DVec3::Z],
         _ => [direction(), direction()],
     };
-    let kinds = Kind::ALL.iter().filter(|kind| kind.fits(N::DIMENSION));
+    let kinds = ObstacleKind::ALL.iter().filter(|kind| kind.fits(N::DIMENSION));
     let obstacles: Vec<Obstacle<f32>> =
         kinds.map(|&kind| Obstacle::new(kind, DVec3::ZERO, [axis, turn], 1.3, BERKOVICH).cast()).collect();
     let found = on_device(adapter, N::DIMENSION, &obstacles, &places);
@@ -117,8 +118,13 @@ fn agree<W: Space<Real = f64>, N: Space<Real = f32>>(adapter: &wgpu::Adapter) {
         let single = worst(places.iter().map(|&place| twin::<N>(obstacle, place)), &exact);
         // The rule of tests/parity: four times the twin's error in f32, two ulp of the largest number at least.
         let bound = (4.0 * single).max(2.0 * 3.5 * f64::from(f32::EPSILON));
-        println!("{}D {}: device {device:e}, twin {single:e}", N::DIMENSION, Kind::ALL[obstacle.kind as usize].name());
-        assert!(device <= bound, "{}D {:?}: {device:e}, twin {single:e}", N::DIMENSION, Kind::ALL[obstacle.kind as usize]);
+        println!("{}D {}: device {device:e}, twin {single:e}", N::DIMENSION, ObstacleKind::ALL[obstacle.kind as usize].name());
+        assert!(
+            device <= bound,
+            "{}D {:?}: {device:e}, twin {single:e}",
+            N::DIMENSION,
+            ObstacleKind::ALL[obstacle.kind as usize]
+        );
     }
 }
 

@@ -19,10 +19,12 @@ use compare::Row;
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::backend::gpu::{Gpu, Options};
+use lithosph::method::{FLAGS, Method};
 use lithosph::particles::Field;
 use lithosph::pass::{Call, Pass, Stage};
+use lithosph::rows::{Fault, SCAN_BLOCK};
 use lithosph::scene::Scene;
-use lithosph::state::{Fault, Method, SCAN_BLOCK, State};
+use lithosph::state::State;
 use lithosph::step;
 use lithosph::tensor::{Line, Plane, Solid, Space};
 use std::collections::{BTreeMap, BTreeSet};
@@ -102,65 +104,6 @@ fn passes_agree_in_three_dimensions() {
     passes_agree::<Solid<f64>, Solid<f32>>();
 }
 
-/// Every word that any method can have.
-fn all_flags() -> BTreeSet<&'static str> {
-    use lithosph::contact::zones::{Form, Normals, Options};
-    use lithosph::contact::{Laws, Potential};
-    use lithosph::material::Law;
-    use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
-    use lithosph::scene::file::{ArtificialForm, Density, Descent, Gradient, Kind};
-    let mut words = BTreeSet::new();
-    let sums = |deformation| CorrectedKernel {
-        correction: true,
-        configuration: Configuration::Current,
-        deformation,
-        velocity_gradient: VelocityGradient::Difference,
-    };
-    for (dimension, density, form, kind, corrected_kernel) in [
-        (1, Density::Continuity, ArtificialForm::Scalar, Kind::Eulerian, None),
-        (2, Density::Summation, ArtificialForm::Principal, Kind::TotalLagrangian, None),
-        (3, Density::Continuity, ArtificialForm::Scalar, Kind::CorrectedKernel, Some(sums(Deformation::Evolved))),
-        (3, Density::Continuity, ArtificialForm::Scalar, Kind::CorrectedKernel, Some(sums(Deformation::Reference))),
-    ] {
-        let method = Method {
-            dimension,
-            density,
-            kind,
-            corrected_kernel,
-            integrator: lithosph::scene::file::Integrator::Rk2,
-            laws: vec![Law::NeoHookean, Law::Maxwell, Law::J2],
-            hourglass: true,
-            gradient: if dimension == 3 { Gradient::Quadratic } else { Gradient::Adjoint },
-            quasi_static: Some(Descent::Fire),
-            shear: true,
-            many_bodies: true,
-            coupling: true,
-            constraints: true,
-            symmetry: true,
-            periodic: true,
-            body_force: true,
-            viscosity: true,
-            xsph: true,
-            velocity_filter: true,
-            artificial_stress: Some(form),
-            contact: Laws {
-                potentials: vec![Potential::Barrier],
-                colour_field: true,
-                zones: Some(Options { form: Form::Printed, normals: Normals::All, friction: true }),
-            },
-            gap: Some(lithosph::facet::GapForm::AlongNormals),
-            obstacles: true,
-            friction: true,
-            internal_energy: true,
-            dissipated_energy: true,
-            compensated: true,
-            ..cases(1)[0].scene().method
-        };
-        words.extend(method.flags());
-    }
-    words
-}
-
 #[test]
 fn the_cases_switch_on_everything() {
     let (mut flags, mut passes, mut kernels, mut blocks) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new(), 0);
@@ -173,7 +116,7 @@ fn the_cases_switch_on_everything() {
         blocks = blocks.max(scene.state::<Line<f32>>(false).params.cell_total as usize / SCAN_BLOCK);
         assert!(scene.particles.len() >= 1000);
     }
-    assert_eq!(flags, all_flags());
+    assert_eq!(flags, FLAGS.iter().map(|(word, _)| *word).collect());
     assert_eq!(passes, Pass::ALL.iter().copied().collect());
     assert_eq!(kernels.len(), lithosph::smoothing::Smoothing::ALL.len());
     assert!(blocks > 0, "the prefix sum of no case takes more than one block");

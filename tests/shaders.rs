@@ -6,12 +6,13 @@ mod common;
 use common::Random;
 use lithosph::backend::shader::{Shader, compose};
 use lithosph::material::Law;
+use lithosph::method::{
+    ArtificialForm, Configuration, CorrectedKernel, Deformation, Density, Formulation, Gradient, Integrator, Method,
+    VelocityGradient,
+};
 use lithosph::registry::Registry;
 use lithosph::scene::Scene;
-use lithosph::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
-use lithosph::scene::file::{ArtificialForm, Density, Gradient, Integrator, Kind};
 use lithosph::smoothing::Smoothing;
-use lithosph::state::Method;
 use lithosph::step;
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
@@ -91,16 +92,7 @@ fn random_method(random: &mut Random) -> Method {
     let plastic = random.coin();
     Method {
         dimension: 1 + random.below(3),
-        kind: Kind::Eulerian,
-        corrected_kernel: None,
-        gap: None,
-        obstacles: false,
-        friction: false,
-        contact: Default::default(),
-        quasi_static: None,
         laws: if plastic { vec![Law::Elastic, Law::J2] } else { vec![Law::Elastic] },
-        hourglass: false,
-        bond_table: false,
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],
         integrator: if plastic { Leapfrog } else { [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)] },
         density: [Density::Continuity, Density::Summation][random.below(2)],
@@ -119,6 +111,7 @@ fn random_method(random: &mut Random) -> Method {
         internal_energy: random.coin(),
         dissipated_energy: (viscosity || plastic) && random.coin(),
         compensated: random.coin(),
+        ..Method::default()
     }
 }
 
@@ -130,7 +123,7 @@ fn random_lagrangian(random: &mut Random) -> Method {
     let memory = laws.iter().any(|law| law.has_memory());
     let eulerian = random_method(random);
     Method {
-        kind: Kind::TotalLagrangian,
+        formulation: Formulation::TotalLagrangian,
         hourglass: random.coin(),
         density: Density::Continuity,
         gradient: [Gradient::Plain, Gradient::Adjoint][random.below(2)],
@@ -162,7 +155,7 @@ fn random_corrected(random: &mut Random) -> Method {
     let velocity_gradient = [VelocityGradient::Difference, VelocityGradient::Printed][random.below(2)];
     let options = CorrectedKernel { correction: random.coin(), configuration, deformation, velocity_gradient };
     Method {
-        kind: Kind::CorrectedKernel,
+        formulation: Formulation::CorrectedKernel,
         corrected_kernel: Some(options),
         hourglass: false,
         gradient: Gradient::Plain,

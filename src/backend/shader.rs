@@ -12,9 +12,9 @@ mod laws;
 
 use crate::contact::Potential;
 use crate::material::Law;
+use crate::method::{FLAGS, Method};
 use crate::pass::Pass;
 use crate::registry::{File, Registry};
-use crate::state::Method;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 macro_rules! library {
@@ -37,60 +37,6 @@ library! {
     contact: zones;
     material: elastic, hardening, j2, maxwell, neo_hookean, radial_return, st_venant_kirchhoff, volumetric_stress;
 }
-
-/// Every word that `#if` may ask for.
-const FLAGS: &[&str] = &[
-    "line",
-    "plane",
-    "solid",
-    "fire",
-    "finite_strain",
-    "list_follows",
-    "staged",
-    "correction",
-    "current",
-    "evolved",
-    "kept_gradients",
-    "difference",
-    "hourglass",
-    "contact",
-    "facets",
-    "gap",
-    "along_normals",
-    "obstacles",
-    "friction",
-    "potentials",
-    "colour_field",
-    "zones_printed",
-    "zones_all",
-    "zones_friction",
-    "listed_again",
-    "memory",
-    "plastic",
-    "quasi_static",
-    "shear",
-    "many_bodies",
-    "coupling",
-    "constraints",
-    "symmetry",
-    "periodic",
-    "body_force",
-    "viscosity",
-    "xsph",
-    "artificial_stress",
-    "scalar_form",
-    "principal_form",
-    "continuity",
-    "correct_rate",
-    "adjoint",
-    "quadratic_gradient",
-    "internal_energy",
-    "dissipated_energy",
-    "dissipated_power",
-    "pair_velocity",
-    "pair_volume",
-    "compensated",
-];
 
 /// What decides the text of a shader.
 #[derive(Debug, Clone, Copy)]
@@ -147,12 +93,17 @@ pub fn compose_text(name: &str, source: &str, choice: &Choice) -> String {
 }
 
 fn composed(registry: &Registry, name: &str, source: &str, choice: &Choice) -> Result<Composed, String> {
-    if let Some(flag) = choice.flags.iter().find(|flag| !FLAGS.contains(flag)) {
-        return Err(format!("flag {flag} is missing from the list of known flags in backend/shader.rs"));
+    if let Some(flag) = choice.flags.iter().find(|flag| !is_flag(flag)) {
+        return Err(format!("flag {flag} is missing from the list of flags in src/method.rs"));
     }
     let mut composer = Composer { registry, choice, imported: Vec::new(), text: String::new() };
     composer.add(name, source)?;
     Ok(Composed { text: number_bindings(&composer.text), imports: composer.imported })
+}
+
+/// Whether `#if` may ask for a word.
+fn is_flag(word: &str) -> bool {
+    FLAGS.iter().any(|(flag, _)| *flag == word)
 }
 
 struct Composer<'a> {
@@ -173,7 +124,7 @@ impl Composer<'_> {
             match words[..] {
                 ["#if", flag] => {
                     let (word, wanted) = flag.strip_prefix('!').map_or((flag, true), |word| (word, false));
-                    if !FLAGS.contains(&word) {
+                    if !is_flag(word) {
                         return wrong("unknown flag");
                     }
                     open.push(self.choice.flags.contains(&word) == wanted);
@@ -234,7 +185,7 @@ fn number_bindings(text: &str) -> String {
 
 /// How a shader uses a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum Access {
     Uniform,
     Read,
     ReadWrite,
@@ -246,7 +197,7 @@ pub struct Binding {
     pub group: u32,
     pub binding: u32,
     pub name: String,
-    pub kind: Kind,
+    pub kind: Access,
 }
 
 /// What the host must know of an entry point.
@@ -312,9 +263,9 @@ pub fn offsets(wgsl: &str, structure: &str) -> Result<Vec<(String, u32)>, String
 fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
     let place = variable.binding.as_ref()?;
     let kind = match variable.space {
-        naga::AddressSpace::Uniform => Kind::Uniform,
-        naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Kind::ReadWrite,
-        naga::AddressSpace::Storage { .. } => Kind::Read,
+        naga::AddressSpace::Uniform => Access::Uniform,
+        naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Access::ReadWrite,
+        naga::AddressSpace::Storage { .. } => Access::Read,
         _ => return None,
     };
     Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind })

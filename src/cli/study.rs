@@ -5,14 +5,13 @@ mod accuracy;
 mod atlas;
 mod buckling;
 mod cost;
+mod place;
 mod stability;
 mod sweep;
 mod tensile;
 
-use super::say;
-use crate::backend::Choice;
 use crate::run::Stop;
-use clap::{Subcommand, ValueEnum};
+use clap::Subcommand;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Study {
@@ -58,26 +57,6 @@ pub(super) enum Study {
     /// A piece may go where all that the scene expects stays within its tolerances, or with --error within that fraction
     /// of the truth. The same command goes on where a kill left it.
     Ablate(ablate::AblateArgs),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-enum PlaceWord {
-    /// The CPU path in f64.
-    Cpu,
-    /// The CPU path in f32.
-    Cpu32,
-    /// Any adapter, a software one too.
-    Gpu,
-}
-
-impl PlaceWord {
-    fn choice(self) -> Choice {
-        match self {
-            Self::Cpu => Choice::Cpu,
-            Self::Cpu32 => Choice::Cpu32,
-            Self::Gpu => Choice::Gpu(None),
-        }
-    }
 }
 
 /// Does a study; gives the exit code.

@@ -2,7 +2,7 @@
 //! plasticity where B is 0, linear hardening where n is 1.
 //! Twin: shaders/material/hardening.wgsl
 
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::Real;
 
 /// Rounds of Newton's method of [`increment`], after which d has all digits.

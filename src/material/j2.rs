@@ -10,7 +10,7 @@ use super::Memory;
 use super::hardening::{increment, yield_stress};
 use super::maxwell::{Mixed, over, relaxed, whole};
 use super::strain::{cube_root_change, lacking, unimodular_strain};
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
 /// Rounds that make q = sY: each gains as many digits as the trial strain is small.

@@ -7,7 +7,7 @@
 
 use super::neo_hookean::{volumetric_energy, volumetric_stress};
 use super::strain::{Whole, cube_root_change, inverse_of_unit_and, lacking, unimodular_strain, volume_change};
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
 /// A tensor of space without symmetry, laid out as [`Whole`].

@@ -11,7 +11,7 @@ pub mod neo_hookean;
 pub mod st_venant_kirchhoff;
 pub mod strain;
 
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Real, Space};
 use serde::{Deserialize, Serialize};
 

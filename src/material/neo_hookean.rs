@@ -6,7 +6,7 @@
 use super::strain::{
     fifth_power_change, inverse_of_unit_and, isochoric_change, lacking, right_strain, unimodular_strain, volume_change,
 };
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
 #[inline(always)]

@@ -3,7 +3,7 @@
 //! Twin: shaders/material/st_venant_kirchhoff.wgsl
 
 use super::strain::right_strain;
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
 #[inline(always)]

@@ -4,7 +4,7 @@
 use super::Moment;
 use crate::material::{cauchy, maxwell, stored_energy, strain};
 use crate::particles::Field;
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Line, Plane, Solid, Space, Tuple};
 
 /// The body of a particle, its H and its C_i - 1.

@@ -1,6 +1,6 @@
 //! Energies of the selected particles.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 
 fn sum(observer: &Observer, of: impl Fn(usize) -> f64) -> f64 {
@@ -27,7 +27,7 @@ fn stray(moment: &Moment, i: usize) -> f64 {
     moment.scalar(Field::HourglassEnergy, i) + moment.scalar(Field::ContactEnergy, i)
 }
 
-pub const HOURGLASS: Kind = Kind {
+pub const HOURGLASS: ObservableKind = ObservableKind {
     word: "hourglass_energy",
     about: "energy of what the deformation gradient does not see (Total Lagrangian)",
     needs: &[],
@@ -35,7 +35,7 @@ pub const HOURGLASS: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scalar(Field::HourglassEnergy, i))),
 };
 
-pub const CONTACT: Kind = Kind {
+pub const CONTACT: ObservableKind = ObservableKind {
     word: "contact_energy",
     about: "energy of pairs that touch",
     needs: &[],
@@ -43,7 +43,7 @@ pub const CONTACT: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scalar(Field::ContactEnergy, i))),
 };
 
-pub const KINETIC: Kind = Kind {
+pub const KINETIC: ObservableKind = ObservableKind {
     word: "kinetic_energy",
     about: "sum of m v^2/2",
     needs: &[],
@@ -51,7 +51,7 @@ pub const KINETIC: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| kinetic(moment, i))),
 };
 
-pub const ELASTIC: Kind = Kind {
+pub const ELASTIC: ObservableKind = ObservableKind {
     word: "elastic_energy",
     about: "sum of V0 (K (e - ln(1 + e)) + (1 + e) S:S/(4 mu)); of V0 psi in the Total Lagrangian formulation",
     needs: &[],
@@ -59,7 +59,7 @@ pub const ELASTIC: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| moment.elastic_energy(i))),
 };
 
-pub const INTERNAL: Kind = Kind {
+pub const INTERNAL: ObservableKind = ObservableKind {
     word: "internal_energy",
     about: "sum of m u, u from the energy equation (formulation.internal_energy)",
     needs: &[],
@@ -67,7 +67,7 @@ pub const INTERNAL: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::InternalEnergy, i))),
 };
 
-pub const DISSIPATED: Kind = Kind {
+pub const DISSIPATED: ObservableKind = ObservableKind {
     word: "dissipated_energy",
     about: "heat made by viscosity so far, that of a Maxwell body too, and plastic work (formulation.dissipated_energy)",
     needs: &[],
@@ -75,7 +75,7 @@ pub const DISSIPATED: Kind = Kind {
     value: Value::Series(|moment, observer| sum(observer, |i| moment.scene.mass(i) * moment.scalar(Field::DissipatedEnergy, i))),
 };
 
-pub const TOTAL: Kind = Kind {
+pub const TOTAL: ObservableKind = ObservableKind {
     word: "total_energy",
     about: "kinetic and elastic energy, that of hourglass terms and contacts, the dissipated one where the scene adds it up; of all particles also that of free obstacles",
     needs: &[],
@@ -90,7 +90,7 @@ pub const TOTAL: Kind = Kind {
     }),
 };
 
-pub const SPEED: Kind = Kind {
+pub const SPEED: ObservableKind = ObservableKind {
     word: "rms_speed",
     about: "sqrt(2 kinetic energy/mass): Strand's total velocity",
     needs: &[],

@@ -1,11 +1,11 @@
 //! Force on a body or on the particles of a boundary condition.
 
 use super::momentum::component;
-use super::{Kind, Value};
+use super::{ObservableKind, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
-pub const FORCE: Kind = Kind {
+pub const FORCE: ObservableKind = ObservableKind {
     word: "force",
     about: "sum of m a over the selection, before constraints: what the rest of the scene does to it; inner forces cancel",
     needs: &[],

@@ -4,8 +4,8 @@
 //! Source: Oliver & Pharr, J. Mater. Res. 7 (1992) 1564, reviewed in J. Mater. Res. 19 (2004) 3.
 
 use super::power_law::{PowerLaw, fit};
-use super::result::Table;
-use super::{Kind, Value};
+use super::table::Table;
+use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 use std::f64::consts::PI;
 
@@ -71,7 +71,7 @@ impl Curve {
     }
 }
 
-pub const UNLOADING_STIFFNESS: Kind = Kind {
+pub const UNLOADING_STIFFNESS: ObservableKind = ObservableKind {
     word: "unloading_stiffness",
     about: "slope at the largest depth of the power law through unloading, `shares` 0.95 to 0.5 of the largest load `of`, over depth `over`",
     needs: &["of", "over"],
@@ -79,7 +79,7 @@ pub const UNLOADING_STIFFNESS: Kind = Kind {
     value: Value::Result(|table, typed| curve(table, typed)?.stiffness(typed)),
 };
 
-pub const CONTACT_DEPTH: Kind = Kind {
+pub const CONTACT_DEPTH: ObservableKind = ObservableKind {
     word: "contact_depth",
     about: "largest depth `over` (less `distance`) less `level`, 0.75, of largest load `of` over unloading stiffness",
     needs: &["of", "over"],
@@ -87,7 +87,7 @@ pub const CONTACT_DEPTH: Kind = Kind {
     value: Value::Result(|table, typed| curve(table, typed)?.contact_depth(typed)),
 };
 
-pub const HARDNESS: Kind = Kind {
+pub const HARDNESS: ObservableKind = ObservableKind {
     word: "hardness",
     about: "largest load `of` over the cross-section, by `radius` or `section`, of the indenter at the contact depth",
     needs: &["of", "over", "radius|section"],
@@ -98,7 +98,7 @@ pub const HARDNESS: Kind = Kind {
     }),
 };
 
-pub const REDUCED_MODULUS: Kind = Kind {
+pub const REDUCED_MODULUS: ObservableKind = ObservableKind {
     word: "reduced_modulus",
     about: "sqrt(pi)/(2 `beta`) unloading stiffness over the root of the cross-section, by `radius` or `section`",
     needs: &["of", "over", "radius|section"],
@@ -110,7 +110,7 @@ pub const REDUCED_MODULUS: Kind = Kind {
     }),
 };
 
-pub const WORK: Kind = Kind {
+pub const WORK: ObservableKind = ObservableKind {
     word: "work",
     about: "integral of load `of` over depth `over`, within the times `between`: of loading above 0, of unloading below",
     needs: &["of", "over"],
@@ -137,7 +137,7 @@ fn value_at(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(from + (to - from) * before / (before - after))
 }
 
-pub const VALUE_AT: Kind = Kind {
+pub const VALUE_AT: ObservableKind = ObservableKind {
     word: "value_at",
     about: "series `of` where series `over` first reaches `level`, linear between rows",
     needs: &["of", "over", "level"],

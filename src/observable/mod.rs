@@ -7,6 +7,7 @@ mod deformation;
 mod energy;
 mod force;
 mod indentation;
+mod kind;
 mod moment;
 mod momentum;
 mod neighborhood;
@@ -18,12 +19,14 @@ mod probe;
 mod profile;
 mod result;
 mod rotation;
+mod table;
 mod trace;
 mod zone;
 
+pub use kind::{ObservableKind, Observer, Value};
 pub use moment::{Moment, fields_of_path};
 pub use profile::profile;
-pub use result::Table;
+pub use table::Table;
 pub use trace::trace;
 
 use crate::particles::Field;
@@ -31,40 +34,8 @@ use crate::scene::Scene;
 use crate::scene::file::Observe;
 use crate::scene::read::{hint, nearest};
 
-/// One kind of observable.
-pub struct Kind {
-    /// Word in a scene.
-    pub word: &'static str,
-    pub about: &'static str,
-    /// Keys of `[observe.NAME]` that it cannot do without; one of those that `|` parts.
-    pub needs: &'static [&'static str],
-    /// Fields that it reads in the Eulerian formulation; those that a run has no counterpart of are refused.
-    pub fields: &'static [Field],
-    pub value: Value,
-}
-
-/// How the number is found.
-pub enum Value {
-    Series(fn(&Moment, &Observer) -> f64),
-    Result(fn(&Table, &Observe) -> Result<f64, String>),
-    Profile,
-    /// Two series as the path of a point.
-    Trace,
-}
-
-/// An observable of a scene, its selection resolved once.
-pub struct Observer {
-    pub name: String,
-    pub typed: Observe,
-    pub kind: &'static Kind,
-    /// Numbers of the particles that it is taken over.
-    pub particles: Vec<usize>,
-    /// Component along which it is taken.
-    pub axis: Option<usize>,
-}
-
 /// Every kind, in the order that `lithosph list` prints.
-pub static KINDS: &[Kind] = &[
+pub static KINDS: &[ObservableKind] = &[
     energy::KINETIC,
     energy::ELASTIC,
     energy::INTERNAL,

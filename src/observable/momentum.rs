@@ -1,6 +1,6 @@
 //! Momenta and means weighted by mass.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
@@ -25,7 +25,7 @@ fn mass(moment: &Moment, observer: &Observer) -> f64 {
     observer.particles.iter().map(|&i| moment.scene.mass(i)).sum()
 }
 
-pub const LINEAR: Kind = Kind {
+pub const LINEAR: ObservableKind = ObservableKind {
     word: "momentum",
     about: "sum of m v, along axis or its length",
     needs: &[],
@@ -33,7 +33,7 @@ pub const LINEAR: Kind = Kind {
     value: Value::Series(|moment, observer| component(sum(moment, observer, |i| velocity(moment, i)), observer)),
 };
 
-pub const ANGULAR: Kind = Kind {
+pub const ANGULAR: ObservableKind = ObservableKind {
     word: "angular_momentum",
     about: "sum of m x cross v about the origin, along axis (z unless given)",
     needs: &[],
@@ -44,7 +44,7 @@ pub const ANGULAR: Kind = Kind {
     }),
 };
 
-pub const VELOCITY: Kind = Kind {
+pub const VELOCITY: ObservableKind = ObservableKind {
     word: "mean_velocity",
     about: "momentum over mass",
     needs: &[],
@@ -54,7 +54,7 @@ pub const VELOCITY: Kind = Kind {
     }),
 };
 
-pub const POSITION: Kind = Kind {
+pub const POSITION: ObservableKind = ObservableKind {
     word: "mean_position",
     about: "centre of mass",
     needs: &[],

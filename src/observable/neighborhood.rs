@@ -1,6 +1,6 @@
 //! How particles lie to each other: pieces, least distance, disorder.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -82,7 +82,7 @@ fn disorder(moment: &Moment, observer: &Observer) -> f64 {
     (known.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / known.len() as f64).sqrt()
 }
 
-pub const PIECES: Kind = Kind {
+pub const PIECES: ObservableKind = ObservableKind {
     word: "pieces",
     about: "connected groups of at least 3 particles, linked where nearer than `distance` spacings (1.5)",
     needs: &[],
@@ -90,7 +90,7 @@ pub const PIECES: Kind = Kind {
     value: Value::Series(pieces),
 };
 
-pub const DISTANCE: Kind = Kind {
+pub const DISTANCE: ObservableKind = ObservableKind {
     word: "least_distance",
     about: "least distance of two particles, in spacings",
     needs: &[],
@@ -98,7 +98,7 @@ pub const DISTANCE: Kind = Kind {
     value: Value::Series(least_distance),
 };
 
-pub const DISORDER: Kind = Kind {
+pub const DISORDER: ObservableKind = ObservableKind {
     word: "disorder",
     about: "standard deviation of the distance to the nearest particle, in spacings",
     needs: &[],

@@ -1,7 +1,7 @@
 //! What a rigid obstacle does and meets.
 
 use super::momentum::component;
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
@@ -30,7 +30,7 @@ fn area(moment: &Moment, observer: &Observer) -> f64 {
         .fold(0.0, |sum, (_, facet)| sum + facet.piece.area)
 }
 
-pub const FORCE: Kind = Kind {
+pub const FORCE: ObservableKind = ObservableKind {
     word: "obstacle_force",
     about: "force of the bodies on a rigid obstacle (key `obstacle`)",
     needs: &["obstacle", "axis"],
@@ -38,7 +38,7 @@ pub const FORCE: Kind = Kind {
     value: Value::Series(|moment, observer| vector(moment, observer, Field::ObstacleForce)),
 };
 
-pub const DISPLACEMENT: Kind = Kind {
+pub const DISPLACEMENT: ObservableKind = ObservableKind {
     word: "obstacle_displacement",
     about: "displacement of a rigid obstacle (key `obstacle`)",
     needs: &["obstacle", "axis"],
@@ -46,7 +46,7 @@ pub const DISPLACEMENT: Kind = Kind {
     value: Value::Series(|moment, observer| vector(moment, observer, Field::ObstacleDisplacement)),
 };
 
-pub const VELOCITY: Kind = Kind {
+pub const VELOCITY: ObservableKind = ObservableKind {
     word: "obstacle_velocity",
     about: "velocity of a rigid obstacle (key `obstacle`)",
     needs: &["obstacle", "axis"],
@@ -54,7 +54,7 @@ pub const VELOCITY: Kind = Kind {
     value: Value::Series(|moment, observer| vector(moment, observer, Field::ObstacleVelocity)),
 };
 
-pub const AREA: Kind = Kind {
+pub const AREA: ObservableKind = ObservableKind {
     word: "contact_area",
     about: "area at the start of the facets that an obstacle touches (key `obstacle`), or of all under pressure",
     needs: &[],

@@ -1,7 +1,7 @@
 //! Numbers of a series that swings, found from a finished run: period, frequency, middle, amplitude.
 
-use super::result::Table;
-use super::{Kind, Value};
+use super::table::Table;
+use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 
 type Rows = [(f64, f64)];
@@ -50,7 +50,7 @@ fn middle(rows: &Rows) -> f64 {
     0.5 * (extreme(rows, 1.0).1 + extreme(rows, -1.0).1)
 }
 
-pub const PERIOD: Kind = Kind {
+pub const PERIOD: ObservableKind = ObservableKind {
     word: "period",
     about: "mean period of series `of` (less `over`) from its crossings of `level`, or of the middle of its extremes",
     needs: &["of"],
@@ -58,7 +58,7 @@ pub const PERIOD: Kind = Kind {
     value: Value::Result(period),
 };
 
-pub const FREQUENCY: Kind = Kind {
+pub const FREQUENCY: ObservableKind = ObservableKind {
     word: "frequency",
     about: "one over the `period`",
     needs: &["of"],
@@ -66,7 +66,7 @@ pub const FREQUENCY: Kind = Kind {
     value: Value::Result(|table, typed| Ok(1.0 / period(table, typed)?)),
 };
 
-pub const SWING_PERIOD: Kind = Kind {
+pub const SWING_PERIOD: ObservableKind = ObservableKind {
     word: "swing_period",
     about: "twice the time between greatest and least value of series `of` (less `over`), each by a parabola through three rows",
     needs: &["of"],
@@ -77,7 +77,7 @@ pub const SWING_PERIOD: Kind = Kind {
     }),
 };
 
-pub const MIDDLE: Kind = Kind {
+pub const MIDDLE: ObservableKind = ObservableKind {
     word: "middle",
     about: "half the sum of greatest and least value of series `of` (less `over`)",
     needs: &["of"],
@@ -85,7 +85,7 @@ pub const MIDDLE: Kind = Kind {
     value: Value::Result(|table, typed| Ok(middle(&table.difference(typed)?))),
 };
 
-pub const AMPLITUDE: Kind = Kind {
+pub const AMPLITUDE: ObservableKind = ObservableKind {
     word: "amplitude",
     about: "half the difference of greatest and least value of series `of` (less `over`)",
     needs: &["of"],
@@ -107,7 +107,7 @@ mod tests {
         Table { times, columns: [("wave".to_string(), wave)].into() }
     }
 
-    fn number(kind: &Kind, duration: f64) -> f64 {
+    fn number(kind: &ObservableKind, duration: f64) -> f64 {
         let typed = Observe { of: Some("wave".into()), ..Observe::default() };
         let Value::Result(of) = kind.value else { panic!("a result") };
         of(&table(duration), &typed).expect("a number")

@@ -1,7 +1,7 @@
 //! Displacement of a material point that need not be a particle: an edge, a tip.
 
 use super::momentum::component;
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ fn displacement(moment: &Moment, observer: &Observer) -> f64 {
     component(DVec3::from_array(moment.vector(Field::Displacement, i)) + carried, observer)
 }
 
-pub const POINT: Kind = Kind {
+pub const POINT: ObservableKind = ObservableKind {
     word: "point_displacement",
     about: "displacement of the material point that starts at `at`, from the nearest particle and its displacement gradient",
     needs: &["at", "axis"],

@@ -1,6 +1,6 @@
 //! A field at a place, or its mean or extreme over a selection.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ fn interpolate(moment: &Moment, at: DVec3, path: &str) -> f64 {
     values.iter().zip(&weights).map(|(v, w)| v * w).sum::<f64>() / weights.iter().sum::<f64>()
 }
 
-pub const PROBE: Kind = Kind {
+pub const PROBE: ObservableKind = ObservableKind {
     word: "probe",
     about: "field of the particle that starts nearest to `at`, or with `interpolate` the kernel's mean at that fixed point",
     needs: &["field", "at"],
@@ -41,7 +41,7 @@ pub const PROBE: Kind = Kind {
     value: Value::Series(probe),
 };
 
-pub const MEAN: Kind = Kind {
+pub const MEAN: ObservableKind = ObservableKind {
     word: "mean",
     about: "mean of a field over the selection, weighted by mass",
     needs: &["field"],
@@ -54,7 +54,7 @@ pub const MEAN: Kind = Kind {
     }),
 };
 
-pub const LARGEST: Kind = Kind {
+pub const LARGEST: ObservableKind = ObservableKind {
     word: "largest",
     about: "largest value of a field over the selection",
     needs: &["field"],
@@ -64,7 +64,7 @@ pub const LARGEST: Kind = Kind {
     }),
 };
 
-pub const SMALLEST: Kind = Kind {
+pub const SMALLEST: ObservableKind = ObservableKind {
     word: "smallest",
     about: "smallest value of a field over the selection",
     needs: &["field"],

@@ -1,10 +1,10 @@
 //! A field along an axis through the particles of a selection, taken at the end of a run.
 
 use super::momentum::component;
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 
-pub const PROFILE: Kind = Kind {
+pub const PROFILE: ObservableKind = ObservableKind {
     word: "profile",
     about: "field of every selected particle against its starting position along `axis`, at the end; with `over`, divided by that series' last value",
     needs: &["field", "axis"],

@@ -1,44 +1,8 @@
 //! Numbers found from finished series.
 
-use super::{Kind, Value};
+use super::table::Table;
+use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
-use std::collections::BTreeMap;
-
-/// A finished run's series: times and columns by name.
-#[derive(Debug, Clone, Default)]
-pub struct Table {
-    pub times: Vec<f64>,
-    pub columns: BTreeMap<String, Vec<f64>>,
-}
-
-impl Table {
-    /// Times and values of a column, within the observable's window.
-    pub fn window(&self, name: &str, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
-        let column = self.columns.get(name).ok_or_else(|| format!("there is no series `{name}`"))?;
-        let [first, last] = typed.between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let pairs = self.times.iter().copied().zip(column.iter().copied());
-        let list: Vec<(f64, f64)> = pairs.filter(|(t, _)| (first..=last).contains(t)).collect();
-        if list.is_empty() { Err(format!("the series `{name}` has no row in the window")) } else { Ok(list) }
-    }
-
-    /// Series `of`, less series `over` where one is named.
-    pub fn difference(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
-        let mut rows = self.of(typed)?;
-        if let Some(other) = &typed.over {
-            let taken = self.window(other, typed)?;
-            rows.iter_mut().zip(taken).for_each(|(row, other)| row.1 -= other.1);
-        }
-        Ok(rows)
-    }
-
-    pub(super) fn of(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
-        self.window(typed.of.as_deref().unwrap_or_default(), typed)
-    }
-
-    pub(super) fn over(&self, typed: &Observe) -> Result<Vec<(f64, f64)>, String> {
-        self.window(typed.over.as_deref().unwrap_or_default(), typed)
-    }
-}
 
 fn restitution(table: &Table, typed: &Observe) -> Result<f64, String> {
     fn relative(table: &Table, typed: &Observe, of: fn(&[(f64, f64)]) -> f64) -> Result<f64, String> {
@@ -95,7 +59,7 @@ fn ratio_of_means(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(mean(table.of(typed)?) / mean(table.over(typed)?))
 }
 
-pub const CONTACT_TIME: Kind = Kind {
+pub const CONTACT_TIME: ObservableKind = ObservableKind {
     word: "contact_time",
     about: "time from where series `of`, a speed, has fallen to 0.9 of its first value to 0.9 of its last, turned back",
     needs: &["of"],
@@ -103,7 +67,7 @@ pub const CONTACT_TIME: Kind = Kind {
     value: Value::Result(contact_time),
 };
 
-pub const SLOPE: Kind = Kind {
+pub const SLOPE: ObservableKind = ObservableKind {
     word: "slope",
     about: "slope of series `of` within the times `between`, by least squares",
     needs: &["of", "between"],
@@ -111,7 +75,7 @@ pub const SLOPE: Kind = Kind {
     value: Value::Result(|table, typed| slope(&table.of(typed)?)),
 };
 
-pub const RATIO_OF_MEANS: Kind = Kind {
+pub const RATIO_OF_MEANS: ObservableKind = ObservableKind {
     word: "ratio_of_means",
     about: "mean of series `of` over that of series `over`, within the times `between`",
     needs: &["of", "over"],
@@ -119,7 +83,7 @@ pub const RATIO_OF_MEANS: Kind = Kind {
     value: Value::Result(ratio_of_means),
 };
 
-pub const RESTITUTION: Kind = Kind {
+pub const RESTITUTION: ObservableKind = ObservableKind {
     word: "restitution",
     about: "minus the mean of the last tenth of series `of` (less `over`) over its first value",
     needs: &["of"],
@@ -127,7 +91,7 @@ pub const RESTITUTION: Kind = Kind {
     value: Value::Result(restitution),
 };
 
-pub const GROWTH_RATE: Kind = Kind {
+pub const GROWTH_RATE: ObservableKind = ObservableKind {
     word: "growth_rate",
     about: "slope of ln of series `of` within the times `between`",
     needs: &["of", "between"],
@@ -135,7 +99,7 @@ pub const GROWTH_RATE: Kind = Kind {
     value: Value::Result(growth_rate),
 };
 
-pub const RATIO: Kind = Kind {
+pub const RATIO: ObservableKind = ObservableKind {
     word: "ratio",
     about: "last value of series `of` over the last of `over`",
     needs: &["of", "over"],
@@ -146,7 +110,7 @@ pub const RATIO: Kind = Kind {
     }),
 };
 
-pub const RMS: Kind = Kind {
+pub const RMS: ObservableKind = ObservableKind {
     word: "rms",
     about: "root mean square of series `of` within the times `between`",
     needs: &["of"],
@@ -171,7 +135,7 @@ fn southwell(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(down / up)
 }
 
-pub const SOUTHWELL: Kind = Kind {
+pub const SOUTHWELL: ObservableKind = ObservableKind {
     word: "southwell",
     about: "buckling load: slope of series `of`, a deflection, against itself over series `over`, the load",
     needs: &["of", "over"],

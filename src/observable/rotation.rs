@@ -1,6 +1,6 @@
 //! How far a body has turned about z.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 use crate::particles::Field;
 use glam::DVec3;
 
@@ -23,7 +23,7 @@ fn angle(moment: &Moment, observer: &Observer) -> f64 {
     sine.atan2(cosine).to_degrees()
 }
 
-pub const ANGLE: Kind = Kind {
+pub const ANGLE: ObservableKind = ObservableKind {
     word: "rotation_angle",
     about: "best-fitting rotation about z since the start, in degrees; the series is unwrapped over full turns",
     needs: &[],

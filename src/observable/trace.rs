@@ -1,10 +1,10 @@
 //! The path of a point, for comparison with one of a reference.
 
-use super::result::Table;
-use super::{Kind, Value};
+use super::table::Table;
+use super::{ObservableKind, Value};
 use crate::scene::file::Observe;
 
-pub const TRACE: Kind = Kind {
+pub const TRACE: ObservableKind = ObservableKind {
     word: "trace",
     about: "series `of` and `over` as the two coordinates of a point: compared with three columns of a reference, by distance",
     needs: &["of", "over"],

@@ -1,6 +1,6 @@
 //! How far something spreads from a point: a plastic zone, a wave.
 
-use super::{Kind, Moment, Observer, Value};
+use super::{Moment, ObservableKind, Observer, Value};
 
 /// Where nothing exceeds the level there is no zone, and its reach is 0.
 fn reach(moment: &Moment, observer: &Observer) -> f64 {
@@ -12,7 +12,7 @@ fn reach(moment: &Moment, observer: &Observer) -> f64 {
     within.map(|(_, &i)| distance(i)).fold(0.0, f64::max)
 }
 
-pub const ZONE: Kind = Kind {
+pub const ZONE: ObservableKind = ObservableKind {
     word: "zone",
     about: "largest distance from `at`, at the start, of the selected particles whose field is above `level`; 0 for none",
     needs: &["field", "at", "level"],

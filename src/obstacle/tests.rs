@@ -3,7 +3,7 @@ use crate::tensor::{Line, Plane, Solid};
 use std::f64::consts::{PI, TAU};
 
 /// One that is askew, in a space of this dimension.
-fn obstacle(kind: Kind, dimension: usize) -> Obstacle<f64> {
+fn obstacle(kind: ObstacleKind, dimension: usize) -> Obstacle<f64> {
     let (axis, turn) = match dimension {
         1 => (DVec3::X, DVec3::Y),
         2 => (DVec3::new(0.6, -0.8, 0.0), DVec3::Z),
@@ -24,7 +24,7 @@ fn length<S: Space<Real = f64>>(v: S::Vec) -> f64 {
 
 fn normals_are_gradients<S: Space<Real = f64>>() {
     let step = 1e-6;
-    for &kind in Kind::ALL.iter().filter(|kind| kind.fits(S::DIMENSION)) {
+    for &kind in ObstacleKind::ALL.iter().filter(|kind| kind.fits(S::DIMENSION)) {
         let obstacle = obstacle(kind, S::DIMENSION);
         let mut bent = 0;
         for x in points::<S>() {
@@ -47,7 +47,7 @@ fn normals_are_gradients<S: Space<Real = f64>>() {
             // The nearest point of the surface lies at the end of the normal; over the edges of the pyramid it may not.
             // A place is a few units long, of which some ulp of 9e-16 are lost.
             let on_surface = distance::<S>(&obstacle, x - normal * gap).0;
-            assert!(on_surface.abs() < 3e-14 || (kind == Kind::Berkovich && gap > 0.0), "{kind:?} {x:?} {on_surface}");
+            assert!(on_surface.abs() < 3e-14 || (kind == ObstacleKind::Berkovich && gap > 0.0), "{kind:?} {x:?} {on_surface}");
         }
         assert!(bent < 3, "{kind:?}: {bent} kinks");
     }
@@ -72,29 +72,29 @@ fn distances_are_those_of_geometry() {
         let off = DVec3::from_array(normal).distance(DVec3::from_array(direction));
         assert!((gap - expected).abs() < 1e-15 && off < 1e-15, "{gap} {expected} {normal:?} {direction:?}");
     };
-    close(at(Kind::Plane, 0.0, [5.0, 6.0, -0.5]), -0.5, [0.0, 0.0, 1.0]);
+    close(at(ObstacleKind::Plane, 0.0, [5.0, 6.0, -0.5]), -0.5, [0.0, 0.0, 1.0]);
     // Its centre is 2 above the point.
-    close(at(Kind::Sphere, 0.0, [3.0, 0.0, 6.0]), 3.0, [0.6, 0.0, 0.8]);
-    close(at(Kind::Sphere, 0.0, [0.0, 1.0, 2.0]), -1.0, [0.0, 1.0, 0.0]);
+    close(at(ObstacleKind::Sphere, 0.0, [3.0, 0.0, 6.0]), 3.0, [0.6, 0.0, 0.8]);
+    close(at(ObstacleKind::Sphere, 0.0, [0.0, 1.0, 2.0]), -1.0, [0.0, 1.0, 0.0]);
     // Along x.
-    close(at(Kind::Cylinder, 0.0, [-9.0, 4.0, 5.0]), 3.0, [0.0, 0.8, 0.6]);
+    close(at(ObstacleKind::Cylinder, 0.0, [-9.0, 4.0, 5.0]), 3.0, [0.0, 0.8, 0.6]);
     let half = 0.5_f64.sqrt();
-    close(at(Kind::Cone, 45.0, [0.0, 2.0, 0.0]), 2.0 * half, [0.0, half, -half]);
-    close(at(Kind::Cone, 45.0, [0.0, 1.0, 2.0]), -half, [0.0, half, -half]);
-    close(at(Kind::Cone, 45.0, [3.0, 0.0, -4.0]), 5.0, [0.6, 0.0, -0.8]);
-    close(at(Kind::Berkovich, 45.0, [3.0, 0.0, 1.0]), 2.0 * half, [half, 0.0, -half]);
+    close(at(ObstacleKind::Cone, 45.0, [0.0, 2.0, 0.0]), 2.0 * half, [0.0, half, -half]);
+    close(at(ObstacleKind::Cone, 45.0, [0.0, 1.0, 2.0]), -half, [0.0, half, -half]);
+    close(at(ObstacleKind::Cone, 45.0, [3.0, 0.0, -4.0]), 5.0, [0.6, 0.0, -0.8]);
+    close(at(ObstacleKind::Berkovich, 45.0, [3.0, 0.0, 1.0]), 2.0 * half, [half, 0.0, -half]);
 }
 
 #[test]
 fn normals_are_defined_where_the_gradient_is_not() {
-    for kind in [Kind::Cone, Kind::Berkovich] {
+    for kind in [ObstacleKind::Cone, ObstacleKind::Berkovich] {
         let obstacle = Obstacle::new(kind, DVec3::ZERO, [DVec3::Z, DVec3::X], 0.0, 70.0);
         for height in [0.0, 0.5, 1e-30] {
             let (gap, normal) = distance::<Solid<f64>>(&obstacle, Solid::<f64>::vec_from([0.0, 0.0, height]));
             assert_eq!((gap, Solid::<f64>::vec_to(normal)), (-height * obstacle.sine, [0.0, 0.0, -1.0]), "{kind:?}");
         }
     }
-    let ball = Obstacle::new(Kind::Sphere, DVec3::ZERO, [DVec3::Y, DVec3::X], 3.0, 0.0);
+    let ball = Obstacle::new(ObstacleKind::Sphere, DVec3::ZERO, [DVec3::Y, DVec3::X], 3.0, 0.0);
     let (gap, normal) = distance::<Plane<f64>>(&ball, Plane::<f64>::vec_from([0.0, 3.0, 0.0]));
     assert_eq!((gap, Plane::<f64>::vec_to(normal)), (-3.0, [0.0, -1.0, 0.0]));
 }
@@ -118,16 +118,16 @@ fn sections_have_the_area_of_the_indenter() {
     };
     let vickers = 4.0 * 68_f64.to_radians().tan().powi(2);
     let cases = [
-        (Kind::Berkovich, BERKOVICH, vickers),
-        (Kind::Berkovich, 65.3, 24.56),
-        (Kind::Cone, 70.3, vickers),
-        (Kind::Cone, 45.0, PI),
+        (ObstacleKind::Berkovich, BERKOVICH, vickers),
+        (ObstacleKind::Berkovich, 65.3, 24.56),
+        (ObstacleKind::Cone, 70.3, vickers),
+        (ObstacleKind::Cone, 45.0, PI),
     ];
     for (kind, angle, factor) in cases {
         let obstacle = Obstacle::new(kind, DVec3::ZERO, [DVec3::Z, DVec3::X], 0.0, angle);
         let height = 0.3;
         let area = measured(&obstacle, height) / (height * height);
-        let of_square = if kind == Kind::Cone { PI } else { 27_f64.sqrt() };
+        let of_square = if kind == ObstacleKind::Cone { PI } else { 27_f64.sqrt() };
         let exact = of_square * angle.to_radians().tan().powi(2);
         assert!((area / exact - 1.0).abs() < 1e-6, "{kind:?} {area}");
         assert!((area / factor - 1.0).abs() < 1e-3, "{kind:?} at {angle} degrees {area} {factor}");
@@ -136,7 +136,7 @@ fn sections_have_the_area_of_the_indenter() {
 
 #[test]
 fn a_gap_near_the_first_touch_keeps_its_digits_in_single_precision() {
-    let ball = Obstacle::new(Kind::Sphere, DVec3::ZERO, [DVec3::Z, DVec3::X], 1.0, 0.0);
+    let ball = Obstacle::new(ObstacleKind::Sphere, DVec3::ZERO, [DVec3::Z, DVec3::X], 1.0, 0.0);
     let (mut worst, mut from_center) = (0.0_f64, 0.0_f64);
     for k in 1..1000 {
         let (across, height) = (1e-3 * (k as f32 * 0.7548777).fract(), 1e-6 * ((k as f32 * 0.5698403).fract() - 0.3));
@@ -156,11 +156,11 @@ fn a_gap_near_the_first_touch_keeps_its_digits_in_single_precision() {
 fn kinds_are_numbered_in_order_and_go_by_two_names() {
     #[derive(serde::Deserialize)]
     struct Typed {
-        kind: Kind,
+        kind: ObstacleKind,
     }
     let parse = |word: &str| toml::from_str::<Typed>(&format!("kind = '{word}'")).unwrap().kind;
-    assert_eq!((parse("disc"), parse("wedge")), (Kind::Sphere, Kind::Cone));
-    for (number, &kind) in Kind::ALL.iter().enumerate() {
+    assert_eq!((parse("disc"), parse("wedge")), (ObstacleKind::Sphere, ObstacleKind::Cone));
+    for (number, &kind) in ObstacleKind::ALL.iter().enumerate() {
         assert_eq!((kind as usize, parse(kind.name())), (number, kind));
     }
 }

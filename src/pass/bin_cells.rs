@@ -1,7 +1,8 @@
 //! Cell of each particle and number of particles of each cell. Twin: shaders/pass/bin_cells.wgsl
 
 use super::Stage;
-use crate::state::{Params, State};
+use crate::rows::Params;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// Cell coordinates of a point. Points outside the grid belong to the cell at its edge: two points nearer than

@@ -14,8 +14,8 @@
 
 use super::Stage;
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
+use crate::method::Gradient;
 use crate::pair::mirror_tensor;
-use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

@@ -12,7 +12,8 @@
 mod descent;
 
 use super::Stage;
-use crate::state::{Fault, REDUCTION_BLOCK, State};
+use crate::rows::{Fault, REDUCTION_BLOCK};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// Sums of m a.v, m a^2, m v^2 and a gap; then the largest force, force scale, rate c/h and fault.

@@ -4,7 +4,8 @@
 //! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 
 use super::Stage;
-use crate::state::{Fault, REDUCTION_BLOCK, State};
+use crate::rows::{Fault, REDUCTION_BLOCK};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

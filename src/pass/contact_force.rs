@@ -3,11 +3,12 @@
 //! [`crate::contact::colour_field`]. Twin: shaders/pass/contact_force.wgsl
 
 use super::Stage;
-use super::rows::{GRAIN, write_rows};
+use super::write::{GRAIN, write_rows};
 use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
+use crate::rows::ContactPair;
 use crate::smoothing::Scaled;
-use crate::state::{ContactPair, State};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

@@ -9,10 +9,10 @@
 //! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
-use super::rows::{GRAIN, write_rows};
+use super::write::{GRAIN, write_rows};
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::material::{self, Memory};
-use crate::scene::file::Gradient;
+use crate::method::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

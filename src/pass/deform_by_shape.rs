@@ -2,8 +2,9 @@
 //! Twin: shaders/pass/deform_by_shape.wgsl
 
 use super::Stage;
-use crate::shape::{Shape, nodes, seen};
-use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
+use crate::shape_function::{Shape, nodes, seen};
+use crate::state::State;
 use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

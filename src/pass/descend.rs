@@ -1,7 +1,7 @@
 //! One step toward equilibrium: u += back v, then v = keep v + push a, then u += forward v, with a the out-of-balance
 //! acceleration. The numbers come from [`super::bound_residual`]. Twin: shaders/pass/descend.wgsl
 
-use super::rows::{GRAIN, write_rows};
+use super::write::{GRAIN, write_rows};
 use super::{Stage, compensated_add, unbalanced};
 use crate::state::State;
 use crate::tensor::Space;

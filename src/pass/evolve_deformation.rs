@@ -3,8 +3,8 @@
 //! Both are written for H = F - 1, so that f32 keeps small strains. Twin: shaders/pass/evolve_deformation.wgsl
 
 use super::Stage;
-use crate::scene::corrected_kernel::VelocityGradient;
-use crate::shape::{Shape, nodes, seen};
+use crate::method::VelocityGradient;
+use crate::shape_function::{Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

@@ -4,9 +4,10 @@
 
 use super::Stage;
 use super::find_neighbors::visit_cells;
-use super::rows::{Wide, write_rows};
+use super::write::{Wide, write_rows};
 use crate::pair::{reference_separation, separation};
-use crate::state::{Fault, State};
+use crate::rows::Fault;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// Particles whose lists are found together.

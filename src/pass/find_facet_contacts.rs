@@ -4,7 +4,8 @@
 use super::Stage;
 use super::find_neighbors::visit_cells;
 use crate::facet::facet_separation;
-use crate::state::{Fault, State};
+use crate::rows::Fault;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// Largest n_e.n_f that enters the list: facets that stand across each other hardly touch.

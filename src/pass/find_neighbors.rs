@@ -3,9 +3,10 @@
 
 use super::Stage;
 use super::bin_cells::{cell_of, place};
-use super::rows::{Wide, write_rows};
+use super::write::{Wide, write_rows};
 use crate::pair::{mirror_point, reference_separation, separation};
-use crate::state::{Fault, NEIGHBOR_BITS, State};
+use crate::rows::{Fault, NEIGHBOR_BITS};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 use std::sync::atomic::{AtomicU32, Ordering};
 

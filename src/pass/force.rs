@@ -9,8 +9,8 @@
 //! Twin: shaders/pass/force.wgsl
 
 use super::Stage;
+use crate::method::{ArtificialForm, Gradient};
 use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
-use crate::scene::file::{ArtificialForm, Gradient};
 use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};

@@ -2,7 +2,7 @@
 //! for a list that will follow the particles. Twin: shaders/pass/keep_gradients.wgsl
 
 use super::Stage;
-use crate::shape::{Node, Shape, nodes};
+use crate::shape_function::{Node, Shape, nodes};
 use crate::state::State;
 use crate::tensor::Space;
 

@@ -3,7 +3,8 @@
 
 use super::Stage;
 use super::move_obstacles::half_kick;
-use crate::state::{REDUCTION_BLOCK, State};
+use crate::rows::REDUCTION_BLOCK;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

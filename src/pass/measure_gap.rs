@@ -3,8 +3,9 @@
 //! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
-use super::rows::{GRAIN, write_rows};
-use crate::facet::{FacetPair, facing, fade, stick};
+use super::write::{GRAIN, write_rows};
+use crate::facet::{facing, fade, stick};
+use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

@@ -39,7 +39,6 @@ mod place_facets;
 mod press_facets;
 mod push_intruders;
 mod reorder;
-mod rows;
 mod runge_kutta;
 mod scan_cells;
 mod shape_force;
@@ -48,6 +47,7 @@ mod shape_stress;
 mod smooth_velocity;
 mod sort_cells;
 mod specific_stress;
+mod stage;
 mod strain_rate;
 mod stress;
 mod stress_rate;
@@ -55,12 +55,15 @@ mod sum_colour;
 mod sum_density;
 mod surface_force;
 mod touch_obstacles;
+mod write;
 mod zone_force;
 
 pub use bound_residual::{force_scale, unbalanced};
-pub(crate) use rows::write;
+pub use stage::Stage;
+pub(crate) use write::{compensated_add, write};
 
-use crate::state::{Method, State};
+use crate::method::Method;
+use crate::state::State;
 use crate::tensor::Space;
 
 /// What one dispatch runs over.
@@ -72,13 +75,13 @@ pub enum Domain {
     Listed,
     /// One invocation a facet.
     Facets,
-    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] facets.
+    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] facets.
     FacetBlocks,
     /// One invocation a cell.
     Cells,
-    /// One workgroup of 256 for each [`crate::state::SCAN_BLOCK`] cells.
+    /// One workgroup of 256 for each [`crate::rows::SCAN_BLOCK`] cells.
     ScanBlocks,
-    /// One workgroup of 256 for each [`crate::state::REDUCTION_BLOCK`] particles.
+    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] particles.
     ReductionBlocks,
     /// One workgroup of 256.
     One,
@@ -89,46 +92,6 @@ pub enum Domain {
 pub struct Entry {
     pub name: &'static str,
     pub domain: Domain,
-}
-
-/// Numbers that tell calls of the same pass in one step apart; `override` constants of the shader.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stage {
-    /// Time at which prescribed velocities are taken, as a fraction of the step.
-    pub time: f64,
-    /// Runge-Kutta: weight of this stage's rate in the sum.
-    pub weight: f64,
-    /// The next state is start + step (`of_sum` sum + `of_rate` rate).
-    pub of_sum: f64,
-    pub of_rate: f64,
-    pub first: bool,
-    pub last: bool,
-    /// Part of the step that a kick or a drift takes.
-    pub part: f64,
-    /// Particles are sorted and listed where they are in the reference configuration.
-    pub reference: bool,
-}
-
-impl Default for Stage {
-    fn default() -> Self {
-        Self { time: 0.0, weight: 0.0, of_sum: 0.0, of_rate: 0.0, first: false, last: false, part: 0.5, reference: false }
-    }
-}
-
-impl Stage {
-    /// Name and value of every override constant; a shader takes those that it declares.
-    pub fn constants(&self) -> [(&'static str, f64); 8] {
-        [
-            ("stage_time", self.time),
-            ("stage_weight", self.weight),
-            ("stage_of_sum", self.of_sum),
-            ("stage_of_rate", self.of_rate),
-            ("stage_first", f64::from(u8::from(self.first))),
-            ("stage_last", f64::from(u8::from(self.last))),
-            ("stage_part", self.part),
-            ("stage_reference", f64::from(u8::from(self.reference))),
-        ]
-    }
 }
 
 /// A pass at its place in the step.
@@ -242,13 +205,4 @@ impl Pass {
         let gaps = matches!(self, PlaceFacets | MeasureGap | PressFacets | CarryFacets | SurfaceForce);
         lists || potentials || gaps || matches!(self, MoveObstacles | TouchObstacles | LoadObstacles)
     }
-}
-
-/// Sum that hands back what rounding dropped. The shader hides the intermediate sum from the optimiser.
-#[inline(always)]
-pub(crate) fn compensated_add<S: Space>(sum: &mut S::Vec, carry: &mut S::Vec, increment: S::Vec) {
-    let corrected = increment - *carry;
-    let total = *sum + corrected;
-    *carry = (total - *sum) - corrected;
-    *sum = total;
 }

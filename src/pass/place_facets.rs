@@ -2,7 +2,7 @@
 //! shaders/pass/place_facets.wgsl
 
 use super::Stage;
-use super::rows::{GRAIN, Rows, write_blocks};
+use super::write::{GRAIN, Rows, write_blocks};
 use crate::facet::lever;
 use crate::state::State;
 use crate::tensor::{Real, Space};

@@ -5,8 +5,9 @@
 //! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
 
 use super::Stage;
-use super::rows::{GRAIN, write_rows};
-use crate::facet::{Facing, GapForm, facing, lever};
+use super::write::{GRAIN, write_rows};
+use crate::facet::{Facing, facing, lever};
+use crate::method::GapForm;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

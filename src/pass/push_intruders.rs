@@ -5,9 +5,10 @@ use super::Stage;
 use super::find_surface::own_neighbors;
 use crate::contact::ZONES;
 use crate::contact::zones::{CORNER, penalty};
+use crate::method::Formulation;
 use crate::pair::separation;
-use crate::scene::file::Kind;
-use crate::state::{ContactPair, State};
+use crate::rows::ContactPair;
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
@@ -59,7 +60,7 @@ fn in_zone<S: Space>(place: S::Vec, normal: S::Vec, half: S::Real) -> bool {
 /// Whether a place lies outside a zone with the normal of some surface particle in the kernel's range of a corner.
 fn outside_some<S: Space>(state: &State<S>, a: usize, place: S::Vec, pair: &ContactPair<S::Real>) -> bool {
     let normals = &state.particles.surface_normal;
-    let reference = state.method.kind == Kind::TotalLagrangian;
+    let reference = state.method.formulation == Formulation::TotalLagrangian;
     let others = own_neighbors(state, a, reference).map(|(c, _)| normals[c]);
     let real = |normal: &S::Vec| S::inner(*normal, *normal) > S::Real::of(0.0);
     others.filter(real).any(|normal| !in_zone::<S>(place, normal, pair.range))

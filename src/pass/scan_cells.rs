@@ -2,7 +2,8 @@
 //! Twin: shaders/pass/scan_cells.wgsl
 
 use super::Stage;
-use crate::state::{SCAN_BLOCK, State};
+use crate::rows::SCAN_BLOCK;
+use crate::state::State;
 use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

@@ -8,7 +8,7 @@
 //! is the reference volume: the force is then minus the derivative of the energy. Twin: shaders/pass/shape_force.wgsl
 
 use super::Stage;
-use crate::shape::{Node, Shape, nodes, seen};
+use crate::shape_function::{Node, Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

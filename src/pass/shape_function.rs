@@ -2,7 +2,7 @@
 //! Twin: shaders/pass/shape_function.wgsl
 
 use super::Stage;
-use crate::shape::{Shape, correct};
+use crate::shape_function::{Shape, correct};
 use crate::state::State;
 use crate::tensor::Space;
 

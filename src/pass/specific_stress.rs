@@ -3,7 +3,7 @@
 
 use super::Stage;
 use crate::material;
-use crate::scene::file::{ArtificialForm, Gradient};
+use crate::method::{ArtificialForm, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

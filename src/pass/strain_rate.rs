@@ -8,8 +8,8 @@
 //! which makes it exact for linear velocity fields (Bonet & Lok 1999).
 
 use super::Stage;
+use crate::method::Gradient;
 use crate::pair::{blocks, pair_coupling, safe_inverse, velocity_difference};
-use crate::scene::file::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

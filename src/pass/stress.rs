@@ -9,7 +9,7 @@
 
 use super::Stage;
 use crate::material;
-use crate::scene::file::{Density, Gradient};
+use crate::method::{Density, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

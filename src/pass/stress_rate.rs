@@ -3,7 +3,7 @@
 
 use super::Stage;
 use crate::material;
-use crate::scene::file::Density;
+use crate::method::Density;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

@@ -3,9 +3,10 @@
 //! shaders/pass/touch_obstacles.wgsl
 
 use super::Stage;
-use super::rows::{GRAIN, write_rows};
-use crate::facet::{FacetPair, lever, stick};
+use super::write::{GRAIN, write_rows};
+use crate::facet::{lever, stick};
 use crate::obstacle;
+use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 

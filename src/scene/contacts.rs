@@ -1,60 +1,12 @@
 //! How bodies touch: from what is typed to the table of pairs of bodies.
 
-use super::file::{Contact, File, Integrator, Kind, PairPotential};
-use super::resolve::Refuse;
-use super::{Body, Scene, copies};
-use crate::contact::zones::{Form, Normals, Options};
+use super::file::{ColourField, ContactTable, File, PairPotential, Zones};
+use super::refuse::Refuse;
+use super::{Scene, SceneBody, copies};
+use crate::contact::zones::Options;
 use crate::contact::{COLOUR_FIELD, Laws, Potential, ZONES, repulsive};
-use crate::state::ContactPair;
-use serde::{Deserialize, Serialize};
-
-/// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ColourField {
-    /// k over the lowest Young's modulus of the scene.
-    pub stiffness: f64,
-    /// c0, between 0 and 1: a half where a particle lies on the other body's surface.
-    pub threshold: f64,
-    /// Support of the kernel, in spacings.
-    pub range: f64,
-}
-
-/// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Zones {
-    /// R, half the side of a zone, in spacings.
-    pub radius: f64,
-    /// Force at which (4.2) is 1, over the lower Young's modulus times a spacing (in space its square); 1 as Fuller has it.
-    #[serde(default = "one")]
-    pub stiffness: f64,
-    #[serde(default)]
-    pub form: Form,
-    #[serde(default)]
-    pub normals: Normals,
-    /// A particle lies on the surface with this share of the most neighbours, or less.
-    #[serde(default = "default_surface")]
-    pub surface: f64,
-    /// And at a corner with this share: there zones have several normals.
-    #[serde(default = "default_corner")]
-    pub corner: f64,
-    /// mu of (4.3).
-    #[serde(default)]
-    pub friction: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn default_surface() -> f64 {
-    0.75
-}
-
-fn default_corner() -> f64 {
-    0.5
-}
+use crate::method::{Formulation, Integrator};
+use crate::rows::ContactPair;
 
 fn zones(file: &File) -> Option<&Zones> {
     file.contact.iter().find_map(|contact| contact.zones.as_ref())
@@ -80,12 +32,12 @@ pub(super) fn laws(file: &File) -> Laws {
 }
 
 /// Contact between bodies a and b; the kernel sums between them have been looked at, with the bodies' names.
-pub(super) fn pairs(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
+pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
     let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
     for (k, contact) in file.contact.iter().enumerate() {
         let at = k.to_string();
         let path = ["contact", &at];
-        let same = |other: &Contact| {
+        let same = |other: &ContactTable| {
             let [a, b] = &contact.between;
             other.between == contact.between || other.between == [b.clone(), a.clone()]
         };
@@ -99,7 +51,7 @@ pub(super) fn pairs(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec
         }
         for (a, b) in copies::pairs(bodies, &contact.between) {
             let Some(pair) = pair_of(file, bodies, contact, (&at, [&bodies[a], &bodies[b]]), refuse)? else { continue };
-            let lagrangian = file.formulation.kind == Kind::TotalLagrangian;
+            let lagrangian = file.formulation.kind == Formulation::TotalLagrangian;
             refuse.unless(lagrangian || a != b, &path, || {
                 "a body touches itself through the kernel already: self-contact needs formulation.kind `total_lagrangian`".into()
             })?;
@@ -117,9 +69,9 @@ pub(super) fn pairs(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec
 /// What two bodies are to each other, where the contact names a law.
 fn pair_of(
     file: &File,
-    bodies: &[Body],
-    contact: &Contact,
-    (at, both): (&str, [&Body; 2]),
+    bodies: &[SceneBody],
+    contact: &ContactTable,
+    (at, both): (&str, [&SceneBody; 2]),
     refuse: &Refuse,
 ) -> Result<Option<ContactPair<f64>>, String> {
     if let Some(potential) = &contact.potential {
@@ -134,7 +86,7 @@ fn pair_of(
 /// What every law of contact asks of the scene.
 fn may_touch(file: &File, path: &[&str], refuse: &Refuse) -> Result<(), String> {
     let kind = file.formulation.kind;
-    refuse.unless(kind != Kind::CorrectedKernel, path, || {
+    refuse.unless(kind != Formulation::CorrectedKernel, path, || {
         "bodies touch where formulation.kind is `total_lagrangian` or `eulerian`".into()
     })?;
     refuse.unless(file.symmetry.is_empty(), path, || "contact does not see mirror images: no [[symmetry]]".into())
@@ -149,13 +101,13 @@ fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(
 }
 
 /// Mean spacing, and the lower of the moduli.
-fn scales([a, b]: [&Body; 2]) -> (f64, f64) {
+fn scales([a, b]: [&SceneBody; 2]) -> (f64, f64) {
     (0.5 * (a.spacing + b.spacing), a.youngs_modulus().min(b.youngs_modulus()))
 }
 
 fn by_potential(
     file: &File,
-    bodies: [&Body; 2],
+    bodies: [&SceneBody; 2],
     typed: &PairPotential,
     path: &[&str],
     refuse: &Refuse,
@@ -175,8 +127,8 @@ fn by_potential(
 /// The colour of all bodies touched adds up, so all such contacts have one stiffness and one threshold.
 fn by_colour_field(
     file: &File,
-    bodies: &[Body],
-    both: [&Body; 2],
+    bodies: &[SceneBody],
+    both: [&SceneBody; 2],
     typed: &ColourField,
     path: &[&str],
     refuse: &Refuse,
@@ -187,14 +139,20 @@ fn by_colour_field(
     })?;
     let alike = file.contact.iter().filter_map(|contact| contact.colour_field.as_ref()).all(|other| other == typed);
     refuse.unless(alike, path, || "all contacts by the colour field share one stiffness, threshold and range".into())?;
-    let modulus = bodies.iter().map(Body::youngs_modulus).fold(f64::INFINITY, f64::min);
+    let modulus = bodies.iter().map(SceneBody::youngs_modulus).fold(f64::INFINITY, f64::min);
     let range = typed.range * scales(both).0;
     let (strength, threshold) = (typed.stiffness * modulus, typed.threshold);
     Ok(ContactPair { law: COLOUR_FIELD, strength, range, threshold, ..ContactPair::default() })
 }
 
 /// Surfaces and normals are those of a body, whatever it touches, so their options are the scene's.
-fn by_zones(file: &File, both: [&Body; 2], typed: &Zones, path: &[&str], refuse: &Refuse) -> Result<ContactPair<f64>, String> {
+fn by_zones(
+    file: &File,
+    both: [&SceneBody; 2],
+    typed: &Zones,
+    path: &[&str],
+    refuse: &Refuse,
+) -> Result<ContactPair<f64>, String> {
     positive(&[("stiffness", typed.stiffness), ("radius", typed.radius)], path, refuse)?;
     let ordered = 0.0 <= typed.corner && typed.corner <= typed.surface && typed.surface <= 1.0;
     refuse.unless(ordered, path, || {

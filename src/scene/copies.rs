@@ -1,19 +1,9 @@
 //! Copies of a body on a grid, each a body of its own, known together by the name that was typed.
 
-use super::Body;
-use super::file::{self, File};
+use super::SceneBody;
+use super::file::{self, Copies, File};
 use super::shape::{Coordinates, Shape};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
-
-/// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Copies {
-    pub count: Vec<u32>,
-    /// Width of the gaps.
-    pub apart: Coordinates,
-}
 
 /// More bodies than this are a slip: the tables of pairs grow with the square.
 const MOST: u64 = 10_000;
@@ -55,12 +45,12 @@ pub(super) fn expand(file: &mut File) -> Result<Vec<usize>, (usize, String)> {
     Ok(typed_at)
 }
 
-fn copy(typed: &file::Body, number: usize, shift: DVec3) -> file::Body {
+fn copy(typed: &file::BodyTable, number: usize, shift: DVec3) -> file::BodyTable {
     let moved = |point: &Option<Coordinates>| {
         let start = point.as_ref().map_or(DVec3::ZERO, Coordinates::vector);
         Some(Coordinates::from((start + shift).to_array()))
     };
-    file::Body {
+    file::BodyTable {
         name: format!("{} {}", typed.name, number + 1),
         group: Some(typed.name.clone()),
         shape: typed.shape.moved(shift),
@@ -71,12 +61,12 @@ fn copy(typed: &file::Body, number: usize, shift: DVec3) -> file::Body {
 }
 
 /// Indices of the bodies that a word names: one, or all copies.
-pub(super) fn named(bodies: &[Body], word: &str) -> Vec<usize> {
+pub(super) fn named(bodies: &[SceneBody], word: &str) -> Vec<usize> {
     (0..bodies.len()).filter(|&k| bodies[k].name == word || bodies[k].group == word).collect()
 }
 
 /// Pairs of bodies that two words name. The same word twice means the body itself, or all copies with each other.
-pub(super) fn pairs(bodies: &[Body], between: &[String; 2]) -> Vec<(usize, usize)> {
+pub(super) fn pairs(bodies: &[SceneBody], between: &[String; 2]) -> Vec<(usize, usize)> {
     let (first, second) = (named(bodies, &between[0]), named(bodies, &between[1]));
     let alike = between[0] == between[1] && first.len() > 1;
     let all = first.iter().flat_map(|&a| second.iter().map(move |&b| (a, b)));

@@ -4,25 +4,16 @@
 //! shape ends and not half a spacing further in.
 
 mod combination;
+mod facet;
 mod owners;
 mod round;
 
+pub use facet::Facet;
 pub use owners::owners;
 
 use super::shape::{Coordinates, Shape, edges};
 use combination::Combination;
 use glam::{DVec2, DVec3};
-
-/// A piece of surface at the start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facet {
-    /// On the surface (m); 0 on the unused axes.
-    pub position: DVec3,
-    /// Outward, of length 1.
-    pub normal: DVec3,
-    /// Area (m2), in 2D length (m), in 1D 1.
-    pub area: f64,
-}
 
 /// Facets of the surface of `shape`, about `spacing` (m) apart, in a fixed order; `anchor` (m) is a point of the
 /// lattice of particles, above which the facets of blocks stand.

@@ -3,15 +3,14 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
-use super::contacts::{ColourField, Zones};
-use super::copies::Copies;
-use super::corrected_kernel::{Configuration, Deformation, VelocityGradient};
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use super::study::Groups;
 use crate::contact::Potential;
-use crate::facet::GapForm;
+use crate::contact::zones::{Form, Normals};
 use crate::material::Law;
+use crate::method::{ArtificialForm, Density, Descent, Formulation, Gradient, Integrator};
+use crate::method::{Configuration, Deformation, GapForm, VelocityGradient};
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -34,14 +33,14 @@ pub struct File {
     /// Small enough to run with the tests.
     #[serde(default)]
     pub ci: bool,
-    pub body: Vec<Body>,
-    pub material: BTreeMap<String, Material>,
+    pub body: Vec<BodyTable>,
+    pub material: BTreeMap<String, MaterialTable>,
     #[serde(default)]
-    pub formulation: Formulation,
+    pub formulation: FormulationTable,
     #[serde(default)]
-    pub contact: Vec<Contact>,
+    pub contact: Vec<ContactTable>,
     #[serde(default)]
-    pub obstacle: Vec<Obstacle>,
+    pub obstacle: Vec<ObstacleTable>,
     #[serde(default)]
     pub boundary: Vec<Boundary>,
     #[serde(default)]
@@ -83,7 +82,7 @@ impl File {
     /// than the slip lines do, at 0.1 for 9 %.
     pub fn hourglass(&self) -> f64 {
         let yields = self.body.iter().any(|body| self.material.get(&body.material).is_some_and(|m| m.law == Law::J2));
-        let usual = if self.formulation.kind != Kind::TotalLagrangian {
+        let usual = if self.formulation.kind != Formulation::TotalLagrangian {
             0.0
         } else if yields {
             0.1
@@ -113,7 +112,7 @@ pub enum Units {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Body {
+pub struct BodyTable {
     pub name: String,
     /// Name that copies share.
     #[serde(skip)]
@@ -142,6 +141,15 @@ pub struct Body {
     pub relative_volume: Option<f64>,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
     pub deviatoric_stress: Option<[f64; 6]>,
+}
+
+/// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Copies {
+    pub count: Vec<u32>,
+    /// Width of the gaps.
+    pub apart: Coordinates,
 }
 
 /// A velocity field that varies over a body.
@@ -200,7 +208,7 @@ pub struct Kick {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Material {
+pub struct MaterialTable {
     #[serde(default)]
     pub law: Law,
     pub density: f64,
@@ -228,8 +236,8 @@ pub enum Hardening {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Formulation {
-    pub kind: Kind,
+pub struct FormulationTable {
+    pub kind: Formulation,
     pub smoothing: Smoothing,
     /// h over the particle spacing.
     pub smoothing_length: f64,
@@ -268,10 +276,10 @@ pub struct Formulation {
     pub list_capacity: Option<u32>,
 }
 
-impl Default for Formulation {
+impl Default for FormulationTable {
     fn default() -> Self {
         Self {
-            kind: Kind::default(),
+            kind: Formulation::default(),
             smoothing: Smoothing::CubicSpline,
             smoothing_length: 1.3,
             density: Density::default(),
@@ -294,48 +302,11 @@ impl Default for Formulation {
     }
 }
 
-/// In which configuration the sums run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Neighbours and kernels where the particles are now; stress from rates.
-    #[default]
-    Eulerian,
-    /// Neighbours and kernels of the reference configuration, found once; stress from the deformation gradient.
-    TotalLagrangian,
-    /// Fully corrected kernels and F as a state of its own: Shutov & Klyuchantsev 2019.
-    CorrectedKernel,
-}
-
-impl Formulation {
+impl FormulationTable {
     pub fn gradient(&self) -> Gradient {
-        let usual = if self.kind == Kind::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
+        let usual = if self.kind == Formulation::TotalLagrangian { Gradient::Adjoint } else { Gradient::Plain };
         self.gradient.unwrap_or(usual)
     }
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Density {
-    /// From the divergence of the velocity, Fuller (2.21).
-    #[default]
-    Continuity,
-    /// From the particles' masses, Fuller (2.22): wrong at free surfaces.
-    Summation,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Gradient {
-    /// Bare kernel gradient.
-    #[default]
-    Plain,
-    /// The velocity gradient is exact for linear fields; the force is the plain one.
-    Corrected,
-    /// The force is the adjoint of the corrected velocity gradient: keeps energy and angular momentum.
-    Adjoint,
-    /// Total Lagrangian: exact for quadratic displacements, for thin parts. Needs three layers of particles.
-    Quadratic,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -366,16 +337,6 @@ fn default_exponent() -> u32 {
     4
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ArtificialForm {
-    /// epsilon |P|/rho^2 where the pressure is tensile.
-    Scalar,
-    /// On tensile principal stresses: Gray, Monaghan & Swift 2001.
-    #[default]
-    Principal,
-}
-
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ArtificialSpacing {
@@ -391,7 +352,7 @@ pub enum ArtificialSpacing {
 /// What acts between two bodies.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Contact {
+pub struct ContactTable {
     pub between: [String; 2],
     /// 1: as if one body; 0: not at all; between: weakened. Eulerian only; 1 unless given.
     pub kernel: Option<f64>,
@@ -405,11 +366,59 @@ pub struct Contact {
     pub zones: Option<Zones>,
 }
 
-impl Contact {
+impl ContactTable {
     /// Some law is named beside the kernel.
     pub fn touches(&self) -> bool {
         self.potential.is_some() || self.colour_field.is_some() || self.zones.is_some()
     }
+}
+
+/// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourField {
+    /// k over the lowest Young's modulus of the scene.
+    pub stiffness: f64,
+    /// c0, between 0 and 1: a half where a particle lies on the other body's surface.
+    pub threshold: f64,
+    /// Support of the kernel, in spacings.
+    pub range: f64,
+}
+
+/// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Zones {
+    /// R, half the side of a zone, in spacings.
+    pub radius: f64,
+    /// Force at which (4.2) is 1, over the lower Young's modulus times a spacing (in space its square); 1 as Fuller has it.
+    #[serde(default = "one")]
+    pub stiffness: f64,
+    #[serde(default)]
+    pub form: Form,
+    #[serde(default)]
+    pub normals: Normals,
+    /// A particle lies on the surface with this share of the most neighbours, or less.
+    #[serde(default = "default_surface")]
+    pub surface: f64,
+    /// And at a corner with this share: there zones have several normals.
+    #[serde(default = "default_corner")]
+    pub corner: f64,
+    /// mu of (4.3).
+    #[serde(default)]
+    pub friction: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn default_surface() -> f64 {
+    0.75
+}
+
+fn default_corner() -> f64 {
+    0.5
 }
 
 /// Energy of facets that are in another body's surface: see `src/facet.rs`.
@@ -462,7 +471,7 @@ pub enum ObstacleShape {
 /// A rigid surface that bodies cannot enter.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Obstacle {
+pub struct ObstacleTable {
     pub name: String,
     pub shape: ObstacleShape,
     /// Velocity: at the start if it has a mass, else prescribed; at rest unless given.
@@ -585,32 +594,6 @@ fn default_residual() -> f64 {
 
 fn default_most_steps() -> u32 {
     100_000
-}
-
-/// How equilibrium is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Descent {
-    /// Fast inertial relaxation engine: Bitzek et al. 2006.
-    #[default]
-    Fire,
-    /// Velocities are set to zero at each peak of the kinetic energy: Cundall 1982.
-    KineticDamping,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integrator {
-    /// Kick-drift-kick: one force a step, second order, symplectic for elastic bodies.
-    Leapfrog,
-    /// Heun.
-    Rk2,
-    /// Shu & Osher's third order: each stage an average of Euler steps.
-    SspRk3,
-    /// The classical fourth order.
-    Rk4,
-    /// Omelyan, Mryglod & Folk 2002: symplectic, fourth order, four forces a step.
-    Pefrl,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

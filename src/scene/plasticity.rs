@@ -1,15 +1,16 @@
 //! The numbers of a J2 material, and what a scene that yields cannot have beside it.
 
-use super::Body;
-use super::file::{File, Hardening, Kind, Material};
-use super::resolve::Refuse;
+use super::SceneBody;
+use super::file::{File, Hardening, MaterialTable};
+use super::refuse::Refuse;
 use crate::material::Law;
+use crate::method::Formulation;
 
 /// Yield stress, and coefficient and exponent of the hardening; 0, 0 and 1 for laws that do not yield.
 ///
 /// # Errors
 /// What the material is or lacks, to follow its name.
-pub(super) fn numbers(material: &Material) -> Result<(f64, [f64; 2]), String> {
+pub(super) fn numbers(material: &MaterialTable) -> Result<(f64, [f64; 2]), String> {
     if material.law != Law::J2 {
         return match (material.yield_stress, material.hardening) {
             (None, None) => Ok((0.0, [0.0, 1.0])),
@@ -37,11 +38,11 @@ pub(super) fn numbers(material: &Material) -> Result<(f64, [f64; 2]), String> {
     Ok((stress, if modulus == 0.0 { [0.0, 1.0] } else { [modulus, exponent] }))
 }
 
-pub(super) fn check(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), String> {
+pub(super) fn check(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<(), String> {
     if bodies.iter().all(|body| body.law != Law::J2) {
         return Ok(());
     }
-    refuse.unless(file.formulation.kind != Kind::CorrectedKernel, &["formulation", "kind"], || {
+    refuse.unless(file.formulation.kind != Formulation::CorrectedKernel, &["formulation", "kind"], || {
         "the law `j2` needs formulation.kind `eulerian` or `total_lagrangian`".into()
     })?;
     let adds_up = file.formulation.dissipated_energy;

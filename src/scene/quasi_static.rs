@@ -1,15 +1,16 @@
 //! What a scene that seeks equilibrium cannot have beside it.
 
-use super::Body;
-use super::file::{File, Integrator, Kind, QuasiStatic};
-use super::resolve::{MOST_OUTPUTS, Refuse};
+use super::SceneBody;
+use super::file::{File, QuasiStatic};
+use super::refuse::{MOST_OUTPUTS, Refuse};
 use crate::material::Law;
+use crate::method::{Formulation, Integrator};
 
-pub(super) fn check(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), String> {
+pub(super) fn check(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<(), String> {
     let Some(typed) = &file.quasi_static else { return Ok(()) };
     numbers(typed, refuse)?;
     outputs(file, typed, refuse)?;
-    let lagrangian = file.formulation.kind == Kind::TotalLagrangian;
+    let lagrangian = file.formulation.kind == Formulation::TotalLagrangian;
     refuse.unless(lagrangian, &["quasi_static"], || {
         "equilibrium is sought in the Total Lagrangian formulation alone: formulation.kind must be `total_lagrangian`".into()
     })?;

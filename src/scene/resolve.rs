@@ -1,21 +1,24 @@
 //! From what is typed to particles and numbers; refuses what is impossible or contradictory.
 
-use super::contacts;
 use super::copies::{expand, named, pairs};
-use super::corrected_kernel::{self, Configuration};
-use super::file::{ArtificialSpacing, Axis, Density, File, Fixed, Gradient, Integrator, Kind};
+use super::corrected_kernel;
+use super::file::{ArtificialSpacing, Axis, File, Fixed};
 use super::packing::fill;
-use super::plasticity;
-use super::read::{Read, Source, hint};
+use super::read::{Read, hint};
+use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
-use super::{Body, Constraint, Particle, Plane, Scene, file, quasi_static};
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
 use crate::material::Law;
-use crate::state::Method;
+use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use glam::DVec3;
 use std::sync::OnceLock;
 
-pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
+/// A scene from what was read. Whether it can give what it is asked to observe, [`Scene::open`] looks at.
+///
+/// # Errors
+/// One sentence that begins with the place of what is impossible.
+pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let Read { mut file, source, variant, resolved_text: text, .. } = read;
     let typed_at = expand(&mut file)
         .map_err(|(k, message)| Refuse { source: &source, typed_at: &[] }.at(&["body", &k.to_string(), "copies"], message))?;
@@ -34,7 +37,7 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let facets = parts.facets(&facet_pairs, &obstacles);
     let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
     let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
-    let scene = Scene {
+    Ok(Scene {
         name,
         variant,
         file,
@@ -52,35 +55,8 @@ pub(super) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         planes,
         artificial_spacing,
         most_bonds: OnceLock::new(),
-    };
-    crate::observable::check(&scene, |path, message| refuse.at(path, message))?;
-    Ok(scene)
+    })
 }
-
-/// Makes the sentences of refusals.
-pub(super) struct Refuse<'a> {
-    source: &'a Source,
-    /// For each body, copies among them, the place where it was typed.
-    typed_at: &'a [usize],
-}
-
-impl Refuse<'_> {
-    pub(super) fn at(&self, path: &[&str], message: impl Into<String>) -> String {
-        let body = path.get(1).filter(|_| path[0] == "body").and_then(|at| at.parse().ok());
-        let typed = body.and_then(|k: usize| self.typed_at.get(k)).map(usize::to_string);
-        let mut path = path.to_vec();
-        if let Some(typed) = &typed {
-            path[1] = typed;
-        }
-        format!("{}: {}", self.source.place(&path), message.into())
-    }
-    pub(super) fn unless(&self, holds: bool, path: &[&str], message: impl FnOnce() -> String) -> Result<(), String> {
-        if holds { Ok(()) } else { Err(self.at(path, message())) }
-    }
-}
-
-/// A slip in the unit of time is refused at once instead of filling the memory with rows.
-pub(super) const MOST_OUTPUTS: f64 = 1e6;
 
 /// Single numbers that must lie in a range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
@@ -158,8 +134,8 @@ fn weights(file: &File, refuse: &Refuse) -> Result<(), String> {
     Ok(())
 }
 
-fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
-    let mut list: Vec<Body> = Vec::new();
+fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
+    let mut list: Vec<SceneBody> = Vec::new();
     for (k, typed) in file.body.iter().enumerate() {
         let at = k.to_string();
         let path = |key: &'static str| ["body".to_string(), at.clone(), key.to_string()];
@@ -199,7 +175,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(refuse_at("spacing", format!("spacing must be a positive number, found {spacing}")));
         }
-        list.push(Body {
+        list.push(SceneBody {
             name: typed.name.clone(),
             group: typed.group.clone().unwrap_or_else(|| typed.name.clone()),
             spacing,
@@ -218,14 +194,14 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<Body>, String> {
     Ok(list)
 }
 
-fn names(bodies: &[Body]) -> Vec<&str> {
+fn names(bodies: &[SceneBody]) -> Vec<&str> {
     let mut list: Vec<&str> = bodies.iter().map(|body| body.group.as_str()).collect();
     list.dedup();
     list
 }
 
 /// Bulk and shear modulus from the pair of constants that is typed.
-fn moduli(material: &file::Material) -> Result<(f64, f64), String> {
+fn moduli(material: &file::MaterialTable) -> Result<(f64, f64), String> {
     let positive = |value: f64, what: &str| {
         if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("needs a positive {what}, found {value}")) }
     };
@@ -252,7 +228,7 @@ fn moduli(material: &file::Material) -> Result<(f64, f64), String> {
     }
 }
 
-fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, String> {
+fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Particle>, String> {
     let mut particles = Vec::new();
     for (k, (typed, body)) in file.body.iter().zip(bodies).enumerate() {
         let anchor = typed.anchor.as_ref().map_or(DVec3::ZERO, |a| a.vector());
@@ -291,7 +267,12 @@ fn pack(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Particle>, 
     Ok(particles)
 }
 
-fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse: &Refuse) -> Result<Vec<Constraint>, String> {
+fn constraints(
+    file: &File,
+    bodies: &[SceneBody],
+    particles: &mut [Particle],
+    refuse: &Refuse,
+) -> Result<Vec<SceneConstraint>, String> {
     let mut list = Vec::new();
     for (k, typed) in file.boundary.iter().enumerate() {
         let at = k.to_string();
@@ -311,7 +292,7 @@ fn constraints(file: &File, bodies: &[Body], particles: &mut [Particle], refuse:
             return Err(refuse.at(&path, format!("`{name}` selects no particle")));
         }
         let (prescribed, vector) = held(typed, file.dimension, mass).map_err(|m| refuse.at(&path, format!("`{name}` {m}")))?;
-        list.push(Constraint { name, prescribed, vector, course: typed.course.clone().unwrap_or_default() });
+        list.push(SceneConstraint { name, prescribed, vector, course: typed.course.clone().unwrap_or_default() });
         for particle in particles.iter_mut().filter(|p| chosen(p)) {
             if particle.constraint != 0 {
                 let other = &list[particle.constraint as usize - 1].name;
@@ -353,10 +334,10 @@ fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3
     Ok((prescribed, vector))
 }
 
-fn coupling(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
+fn coupling(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
     // Through the reference configuration, bodies have nothing to do with each other.
     let f = &file.formulation;
-    let reference = f.kind == Kind::TotalLagrangian || f.configuration == Some(Configuration::Reference);
+    let reference = f.kind == Formulation::TotalLagrangian || f.configuration == Some(Configuration::Reference);
     let apart = if reference { 0.0 } else { 1.0 };
     let mut table = vec![vec![apart; bodies.len()]; bodies.len()];
     (0..bodies.len()).for_each(|k| table[k][k] = 1.0);
@@ -398,7 +379,7 @@ fn planes(file: &File, refuse: &Refuse) -> Result<Vec<Plane>, String> {
     Ok(list)
 }
 
-fn period(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<[f64; 3], String> {
+fn period(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<[f64; 3], String> {
     let mut period = [0.0; 3];
     let Some(lengths) = &file.periodic else { return Ok(period) };
     refuse.unless(lengths.len() == file.dimension, &["periodic"], || {
@@ -417,9 +398,9 @@ fn period(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<[f64; 3], Str
 
 fn method(
     file: &File,
-    bodies: &[Body],
+    bodies: &[SceneBody],
     coupling: &[Vec<f64>],
-    constraints: &[Constraint],
+    constraints: &[SceneConstraint],
     planes: &[Plane],
     period: [f64; 3],
     refuse: &Refuse,
@@ -434,7 +415,7 @@ fn method(
          no friction and does not yield"
             .into()
     })?;
-    let lagrangian = f.kind == Kind::TotalLagrangian;
+    let lagrangian = f.kind == Formulation::TotalLagrangian;
     let corrected_kernel = corrected_kernel::options(file, refuse)?;
     lagrangian_only(file, bodies, refuse)?;
     plasticity::check(file, bodies, refuse)?;
@@ -450,7 +431,7 @@ fn method(
         quasi_static: file.quasi_static.as_ref().map(|q| q.method),
         density: f.density,
         gradient: f.gradient(),
-        kind: f.kind,
+        formulation: f.kind,
         corrected_kernel,
         laws,
         hourglass: lagrangian && file.hourglass() > 0.0,
@@ -482,10 +463,10 @@ fn rubs(file: &File) -> bool {
 }
 
 /// What belongs to one formulation and not to the other.
-fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), String> {
+fn lagrangian_only(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<(), String> {
     let f = &file.formulation;
-    let lagrangian = f.kind == Kind::TotalLagrangian;
-    let finite = f.kind != Kind::Eulerian;
+    let lagrangian = f.kind == Formulation::TotalLagrangian;
+    let finite = f.kind != Formulation::Eulerian;
     for (k, body) in bodies.iter().enumerate() {
         let at = k.to_string();
         let serves = if finite { body.law.is_finite_strain() } else { body.law.is_hypoelastic() };
@@ -543,7 +524,7 @@ fn lagrangian_only(file: &File, bodies: &[Body], refuse: &Refuse) -> Result<(), 
     })
 }
 
-fn artificial_spacing(file: &File, bodies: &[Body], particles: &[Particle]) -> f64 {
+fn artificial_spacing(file: &File, bodies: &[SceneBody], particles: &[Particle]) -> f64 {
     match file.formulation.artificial_stress.as_ref().map(|a| a.spacing) {
         Some(ArtificialSpacing::Given(length)) => length,
         Some(ArtificialSpacing::Mean) => mean_spacing(bodies, particles),
@@ -552,7 +533,7 @@ fn artificial_spacing(file: &File, bodies: &[Body], particles: &[Particle]) -> f
 }
 
 /// Mean distance to its neighbours of the first body's particle that has most of them.
-fn mean_spacing(bodies: &[Body], particles: &[Particle]) -> f64 {
+fn mean_spacing(bodies: &[SceneBody], particles: &[Particle]) -> f64 {
     let own: Vec<DVec3> = particles.iter().filter(|p| p.body == 0).map(|p| p.position).collect();
     let middle = own.iter().copied().sum::<DVec3>() / own.len() as f64;
     let near = |p: DVec3| own.iter().map(move |q| q.distance(p));

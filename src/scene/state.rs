@@ -3,8 +3,10 @@
 use super::Scene;
 use super::file::Viscosity;
 use crate::bond::BondTable;
+use crate::method::Method;
 use crate::particles::{Field, Particles, Set, Type};
-use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Method, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK};
+use crate::state::State;
 use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
@@ -36,11 +38,11 @@ impl Scene {
             method,
             params,
             clock: Clock::default(),
-            bodies: self.bodies.iter().map(super::Body::numbers).collect(),
+            bodies: self.bodies.iter().map(super::SceneBody::numbers).collect(),
             coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
             facet_pairs: self.facet_pairs.iter().flatten().map(|pair| pair.map(real)).collect(),
             obstacles: self.obstacles.iter().map(|obstacle| obstacle.shape.cast()).collect(),
-            movers: self.obstacles.iter().map(super::Obstacle::mover).collect(),
+            movers: self.obstacles.iter().map(super::SceneObstacle::mover).collect(),
             obstacle_pairs: self.obstacles.iter().flat_map(|o| &o.pairs).map(|pair| pair.map(real)).collect(),
             facet_contacts: vec![0; self.facets.len() * params.facet_capacity as usize],
             block_load: vec![S::Vec::default(); params.facet_blocks() * self.obstacles.len()],
@@ -204,7 +206,7 @@ impl Scene {
 
     /// Longest way from a facet to its particle.
     fn longest_lever(&self) -> f64 {
-        let lever = |facet: &super::Facet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
+        let lever = |facet: &super::SceneFacet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
         self.facets.iter().map(lever).fold(0.0, f64::max)
     }
 
@@ -360,7 +362,7 @@ impl Scene {
     }
 }
 
-impl super::Obstacle {
+impl super::SceneObstacle {
     fn mover<R: Real>(&self) -> Mover<R> {
         let condition = self.condition.map_or(0, |index| index as u32 + 1);
         Mover { condition, inverse_mass: R::of(self.inverse_mass) }
@@ -371,7 +373,7 @@ fn keeps_gradients(method: &Method) -> bool {
     method.corrected_kernel.is_some_and(|options| options.keeps_gradients())
 }
 
-impl super::Body {
+impl super::SceneBody {
     /// The body's row in the table of bodies.
     pub fn numbers<R: Real>(&self) -> Body<R> {
         let real = R::of;

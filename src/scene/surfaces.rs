@@ -2,18 +2,20 @@
 
 use super::copies::{named, pairs};
 use super::facets::{facets, owners};
-use super::file::{self, Gradient, Integrator, ObstacleShape, SurfaceGap};
-use super::resolve::Refuse;
+use super::file::{self, ObstacleShape, SurfaceGap};
+use super::refuse::Refuse;
 use super::shape::{Coordinates, used};
-use super::{Body, Constraint, Facet, Obstacle, Particle, Plane};
-use crate::facet::{FacetPair, full_weight};
-use crate::obstacle::{self, BERKOVICH, Kind};
+use super::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
+use crate::facet::full_weight;
+use crate::method::{Formulation, Gradient, Integrator};
+use crate::obstacle::{BERKOVICH, ObstacleKind};
+use crate::rows::{FacetPair, Obstacle};
 use glam::DVec3;
 
 /// What [`super::resolve`] has made so far.
 pub(super) struct Parts<'a> {
     pub file: &'a file::File,
-    pub bodies: &'a [Body],
+    pub bodies: &'a [SceneBody],
     pub particles: &'a [Particle],
     pub planes: &'a [Plane],
     pub refuse: &'a Refuse<'a>,
@@ -76,7 +78,7 @@ impl Parts<'_> {
     /// What contact by surfaces asks of the scene.
     fn check_method(&self, path: &[&str]) -> Result<(), String> {
         let (file, refuse) = (self.file, self.refuse);
-        refuse.unless(file.formulation.kind == file::Kind::TotalLagrangian, path, || {
+        refuse.unless(file.formulation.kind == Formulation::TotalLagrangian, path, || {
             "contact by surfaces needs formulation.kind `total_lagrangian`".into()
         })?;
         refuse.unless(file.formulation.gradient != Some(Gradient::Quadratic), path, || {
@@ -88,12 +90,17 @@ impl Parts<'_> {
     }
 
     /// Rigid obstacles; what moves them is added to the constraints.
-    pub fn obstacles(&self, constraints: &mut Vec<Constraint>) -> Result<Vec<Obstacle>, String> {
+    pub fn obstacles(&self, constraints: &mut Vec<SceneConstraint>) -> Result<Vec<SceneObstacle>, String> {
         let typed = self.file.obstacle.iter().enumerate();
         typed.map(|(k, typed)| self.obstacle(typed, &k.to_string(), constraints)).collect()
     }
 
-    fn obstacle(&self, typed: &file::Obstacle, at: &str, constraints: &mut Vec<Constraint>) -> Result<Obstacle, String> {
+    fn obstacle(
+        &self,
+        typed: &file::ObstacleTable,
+        at: &str,
+        constraints: &mut Vec<SceneConstraint>,
+    ) -> Result<SceneObstacle, String> {
         let (refuse, path) = (self.refuse, ["obstacle", at]);
         self.check_method(&path)?;
         self.check_friction(typed.friction, &path)?;
@@ -107,7 +114,7 @@ impl Parts<'_> {
         let dimension = self.file.dimension;
         let velocity = used(typed.velocity.as_ref().map_or(DVec3::ZERO, |v| v.vector()), dimension);
         let condition = (typed.mass.is_none() && velocity != DVec3::ZERO).then(|| {
-            constraints.push(Constraint {
+            constraints.push(SceneConstraint {
                 name: typed.name.clone(),
                 prescribed: [true; 3],
                 vector: velocity.to_array(),
@@ -115,7 +122,7 @@ impl Parts<'_> {
             });
             constraints.len() - 1
         });
-        Ok(Obstacle {
+        Ok(SceneObstacle {
             name: typed.name.clone(),
             shape: self.shape(typed, velocity).map_err(|message| refuse.at(&["obstacle", at, "shape"], message))?,
             velocity,
@@ -125,7 +132,7 @@ impl Parts<'_> {
         })
     }
 
-    fn shape(&self, typed: &file::Obstacle, velocity: DVec3) -> Result<obstacle::Obstacle<f64>, String> {
+    fn shape(&self, typed: &file::ObstacleTable, velocity: DVec3) -> Result<Obstacle<f64>, String> {
         let vector = |c: &Coordinates| used(c.vector(), self.file.dimension);
         let solid = self.file.dimension == 3;
         let round = |center: DVec3, radius: f64, kind, along: DVec3| {
@@ -134,7 +141,7 @@ impl Parts<'_> {
             }
             // From where it touches first to its centre.
             let inward = -self.toward_bodies(center, along, velocity);
-            Ok(obstacle::Obstacle::new(kind, center - inward * radius, [inward, along], radius, 0.0))
+            Ok(Obstacle::new(kind, center - inward * radius, [inward, along], radius, 0.0))
         };
         let pointed = |apex: DVec3, axis: DVec3, kind, turn: DVec3, angle: f64| {
             if axis == DVec3::ZERO {
@@ -143,29 +150,29 @@ impl Parts<'_> {
             if !(angle > 0.0 && angle < 90.0) {
                 return Err(format!("half_angle must lie between 0 and 90 degrees, found {angle}"));
             }
-            Ok(obstacle::Obstacle::new(kind, apex, [axis, turn], 0.0, angle))
+            Ok(Obstacle::new(kind, apex, [axis, turn], 0.0, angle))
         };
         match &typed.shape {
             ObstacleShape::Plane { point, normal } if vector(normal) != DVec3::ZERO => {
-                Ok(obstacle::Obstacle::new(Kind::Plane, vector(point), [vector(normal), DVec3::ZERO], 0.0, 0.0))
+                Ok(Obstacle::new(ObstacleKind::Plane, vector(point), [vector(normal), DVec3::ZERO], 0.0, 0.0))
             }
             ObstacleShape::Plane { .. } => Err("normal must not be zero".into()),
-            ObstacleShape::Sphere { center, radius } => round(vector(center), *radius, Kind::Sphere, DVec3::ZERO),
+            ObstacleShape::Sphere { center, radius } => round(vector(center), *radius, ObstacleKind::Sphere, DVec3::ZERO),
             ObstacleShape::Cylinder { .. } | ObstacleShape::Berkovich { .. } if !solid => {
                 Err("a cylinder or a Berkovich pyramid needs dimension 3".into())
             }
             ObstacleShape::Cylinder { center, axis, radius } => match vector(axis).try_normalize() {
-                Some(along) => round(vector(center), *radius, Kind::Cylinder, along),
+                Some(along) => round(vector(center), *radius, ObstacleKind::Cylinder, along),
                 None => Err("axis must not be zero".into()),
             },
             ObstacleShape::Cone { apex, axis, half_angle } => {
-                pointed(vector(apex), vector(axis), Kind::Cone, DVec3::ZERO, *half_angle)
+                pointed(vector(apex), vector(axis), ObstacleKind::Cone, DVec3::ZERO, *half_angle)
             }
             ObstacleShape::Berkovich { apex, axis, turn } => {
                 let across = vector(axis).any_orthogonal_vector();
                 let about = vector(axis).normalize_or_zero();
                 let turned = glam::DQuat::from_axis_angle(about, turn.to_radians()) * across;
-                pointed(vector(apex), vector(axis), Kind::Berkovich, turned, BERKOVICH)
+                pointed(vector(apex), vector(axis), ObstacleKind::Berkovich, turned, BERKOVICH)
             }
         }
     }
@@ -179,12 +186,12 @@ impl Parts<'_> {
     }
 
     /// How an obstacle touches each body.
-    fn touched(&self, typed: &file::Obstacle, path: &[&str; 2]) -> Result<Vec<FacetPair<f64>>, String> {
+    fn touched(&self, typed: &file::ObstacleTable, path: &[&str; 2]) -> Result<Vec<FacetPair<f64>>, String> {
         let known = |word: &String| !named(self.bodies, word).is_empty();
         if let Some(stray) = typed.against.iter().flatten().find(|word| !known(word)) {
             return Err(self.refuse.at(&[path[0], path[1], "against"], format!("no body is named `{stray}`")));
         }
-        let pair = |body: &Body| {
+        let pair = |body: &SceneBody| {
             let touches =
                 typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group));
             let stiffness = if touches { typed.stiffness * body.youngs_modulus() / body.spacing } else { 0.0 };
@@ -194,7 +201,7 @@ impl Parts<'_> {
     }
 
     /// Facets of the bodies that touch something, in order of their owners; none on mirror planes.
-    pub fn facets(&self, gaps: &[Vec<FacetPair<f64>>], obstacles: &[Obstacle]) -> Vec<Facet> {
+    pub fn facets(&self, gaps: &[Vec<FacetPair<f64>>], obstacles: &[SceneObstacle]) -> Vec<SceneFacet> {
         let mut list = Vec::new();
         for (k, (typed, body)) in self.file.body.iter().zip(self.bodies).enumerate() {
             let touches = gaps[k].iter().chain(obstacles.iter().map(|o| &o.pairs[k])).any(|pair| pair.stiffness > 0.0);
@@ -210,9 +217,9 @@ impl Parts<'_> {
             let own = own.filter(|(_, p)| typed.shape.distance(p.position, self.file.dimension) > deep);
             let (numbers, positions): (Vec<u32>, Vec<DVec3>) = own.map(|(i, p)| (i as u32, p.position)).unzip();
             let owners = owners(&pieces, &positions, body.spacing);
-            list.extend(pieces.iter().zip(owners).map(|(&piece, owner)| Facet { owner: numbers[owner as usize], piece }));
+            list.extend(pieces.iter().zip(owners).map(|(&piece, owner)| SceneFacet { owner: numbers[owner as usize], piece }));
         }
-        list.sort_by_key(|facet: &Facet| facet.owner);
+        list.sort_by_key(|facet: &SceneFacet| facet.owner);
         list
     }
 }

@@ -5,26 +5,18 @@
 
 mod cubic_spline;
 mod gaussian;
+mod kernel;
 mod quadratic;
 mod wendland;
 
-pub(crate) use cubic_spline::CubicSpline;
-use gaussian::Gaussian;
-use quadratic::Quadratic;
-use wendland::Wendland;
+pub use cubic_spline::CubicSpline;
+pub use gaussian::Gaussian;
+pub use kernel::Kernel;
+pub use quadratic::Quadratic;
+pub use wendland::Wendland;
 
 use crate::tensor::Real;
 use serde::{Deserialize, Serialize};
-
-/// One smoothing kernel in its dimensionless form.
-pub(crate) trait Kernel: Copy + Send + Sync + 'static {
-    /// C_1, C_2, C_3: the integral of W over the line, the plane and space is 1.
-    const NORMALISATION: [f64; 3];
-    /// w(q) for 0 <= q; zero from q = 2 on.
-    fn shape<R: Real>(q: R) -> R;
-    /// dw/dq for 0 <= q; zero from q = 2 on.
-    fn slope<R: Real>(q: R) -> R;
-}
 
 macro_rules! kernels {
     ($($word:ident: $name:ident, $about:literal;)*) => {

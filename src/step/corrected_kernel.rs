@@ -1,9 +1,9 @@
 //! The passes of Shutov & Klyuchantsev's method at their places in a step.
 
 use super::{call, drift_by, list, order};
+use crate::method::CorrectedKernel;
 use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
-use crate::scene::corrected_kernel::CorrectedKernel;
 
 /// A pass whose sums run over the reference configuration, or over the current one.
 fn summed(pass: Pass, reference: bool) -> Call {

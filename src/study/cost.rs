@@ -10,11 +10,10 @@ mod report;
 pub use measure::Step;
 
 use crate::backend::Choice;
+use crate::method::{Formulation, Method};
 use crate::registry::{Registry, Texts};
 use crate::run::{INTERRUPTED, Stop};
 use crate::scene::Scene;
-use crate::scene::file::Kind;
-use crate::state::Method;
 use crate::step;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -116,10 +115,10 @@ fn row(scene: &Scene, request: &Request) -> Result<Row, Stop> {
     Ok(Row {
         scene: scene.label(),
         dimension: method.dimension,
-        formulation: match method.kind {
-            Kind::Eulerian => "eulerian",
-            Kind::TotalLagrangian => "total_lagrangian",
-            Kind::CorrectedKernel => "corrected_kernel",
+        formulation: match method.formulation {
+            Formulation::Eulerian => "eulerian",
+            Formulation::TotalLagrangian => "total_lagrangian",
+            Formulation::CorrectedKernel => "corrected_kernel",
         },
         particles,
         fields: step::fields(method).iter().map(|field| field.name()).collect(),

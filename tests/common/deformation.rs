@@ -3,7 +3,7 @@
 
 use super::Random;
 use lithosph::material::{self, Law};
-use lithosph::state::Body;
+use lithosph::rows::Body;
 use lithosph::tensor::{Real, Space};
 
 pub const LAWS: [Law; 4] = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];

@@ -8,8 +8,8 @@ pub mod matrix;
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Columns};
 use lithosph::particles::Field;
+use lithosph::rows::Clock;
 use lithosph::scene::Scene;
-use lithosph::state::Clock;
 use std::io::Write;
 
 /// A seeded sequence of numbers: SplitMix64 of Steele, Lea & Flood 2014.

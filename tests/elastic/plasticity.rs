@@ -5,7 +5,8 @@ use crate::common::matrix::{M, inner, plus, times, transposed};
 use crate::common::parse;
 use lithosph::material::{elastic_energy, j2};
 use lithosph::pass::{Pass, Stage};
-use lithosph::state::{Body, State};
+use lithosph::rows::Body;
+use lithosph::state::State;
 use lithosph::tensor::{Plane, Real, Solid, Space};
 
 const SHEAR: f64 = 1.0 / 2.6;

@@ -6,7 +6,7 @@
 
 use super::yield_stress;
 use crate::common::matrix::*;
-use lithosph::state::Body;
+use lithosph::rows::Body;
 
 pub struct Flow<'a> {
     pub body: Body<f64>,

@@ -5,9 +5,9 @@ use crate::common::deformation::*;
 use crate::common::matrix::{M, determinant, times};
 use lithosph::backend::Choice;
 use lithosph::material::{self, Law, Memory};
+use lithosph::rows::Body;
 use lithosph::run::{Options, run};
 use lithosph::scene::Scene;
-use lithosph::state::Body;
 use lithosph::tensor::{Line, Plane, Real, Solid, Space};
 
 #[path = "plastic_flow.rs"]

@@ -7,7 +7,7 @@ use lithosph::backend::cpu::Cpu;
 use lithosph::material::{first_piola, stored_energy};
 use lithosph::pass::{Pass, Stage};
 use lithosph::scene::Scene;
-use lithosph::shape::{Node, Shape, nodes};
+use lithosph::shape_function::{Node, Shape, nodes};
 use lithosph::smoothing::CubicSpline;
 use lithosph::tensor::{Line, Plane, Solid, Space};
 

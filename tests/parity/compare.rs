@@ -6,8 +6,9 @@ use crate::tables::{field, padding};
 use lithosph::pair::separation;
 use lithosph::particles::{Field, Set, Type};
 use lithosph::pass::Pass;
+use lithosph::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use lithosph::smoothing::Smoothing;
-use lithosph::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use lithosph::state::State;
 use lithosph::tensor::{Real, Space};
 
 const ALLOWED: f64 = 4.0;

@@ -4,10 +4,9 @@ use crate::cases::{CELL, Case, EDGE};
 use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;
-use lithosph::facet::FacetPair;
-use lithosph::obstacle::Obstacle;
 use lithosph::particles::{Field, Particles, Type};
-use lithosph::state::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, SCAN_BLOCK, State};
+use lithosph::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params, SCAN_BLOCK};
+use lithosph::state::State;
 use lithosph::tensor::{Linear, Real, Space};
 
 /// Tables, beside the fields, that passes write.

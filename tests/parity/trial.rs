@@ -4,10 +4,12 @@ use crate::compare::{Row, Seen, assert_rounding_decides_nothing, compare};
 use crate::tables::{convert, different, download, names, upload};
 use bytemuck::bytes_of;
 use lithosph::backend::gpu::{Gpu, Options, Patch};
-use lithosph::backend::shader::{self, Kind, compose};
+use lithosph::backend::shader::{self, Access, compose};
+use lithosph::method::Method;
 use lithosph::particles::Field;
 use lithosph::pass::{Call, Pass, Stage};
-use lithosph::state::{Clock, Method, State};
+use lithosph::rows::Clock;
+use lithosph::state::State;
 use lithosph::step;
 use lithosph::tensor::Space;
 use std::collections::BTreeSet;
@@ -26,7 +28,7 @@ fn writable<S: Space>(pass: Pass, state: &State<S>) -> BTreeSet<&'static str> {
     let mut list = BTreeSet::new();
     for entry in pass.entries() {
         let bindings = shader::reflect(&text, entry.name).unwrap().bindings;
-        for binding in bindings.iter().filter(|binding| binding.kind == Kind::ReadWrite) {
+        for binding in bindings.iter().filter(|binding| binding.kind == Access::ReadWrite) {
             if binding.name == "destination" {
                 list.extend(state.particles.present().iter().filter(|field| field.carried()).map(|field| field.name()));
                 continue;

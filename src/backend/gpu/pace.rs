@@ -1,6 +1,6 @@
 //! How many steps to hand to the device at once.
 
-use crate::state::Clock;
+use crate::rows::Clock;
 
 /// Seconds that a batch should take: short enough to stay responsive, long enough to hide the wait.
 const TARGET: f64 = 0.5;

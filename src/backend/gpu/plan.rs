@@ -2,10 +2,11 @@
 
 use super::connection::Connection;
 use super::tables::{Part, Tables};
-use crate::backend::shader::{self, Binding, Interface, Kind, Shader};
+use crate::backend::shader::{self, Access, Binding, Interface, Shader};
+use crate::method::Method;
 use crate::particles::Set;
 use crate::pass::{Call, Domain, Entry, Pass};
-use crate::state::{Method, REDUCTION_BLOCK, SCAN_BLOCK};
+use crate::rows::{REDUCTION_BLOCK, SCAN_BLOCK};
 use std::collections::BTreeMap;
 use wgpu::{Buffer, CommandEncoder, ComputePassDescriptor, ComputePipeline};
 
@@ -182,7 +183,7 @@ fn groups(domain: Domain, tables: &Tables, part: &Part, workgroup: u32) -> u32 {
 impl Prepared {
     fn new(link: &Connection, pass: Pass, interface: Interface) -> Result<Self, String> {
         let limit = link.device.limits().max_storage_buffers_per_shader_stage;
-        let storage = interface.bindings.iter().filter(|binding| binding.kind != Kind::Uniform).count();
+        let storage = interface.bindings.iter().filter(|binding| binding.kind != Access::Uniform).count();
         if storage > limit as usize {
             return Err(format!("it binds {storage} tables, but the device allows {limit}; use the CPU"));
         }
@@ -251,8 +252,8 @@ impl Prepared {
 
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     let ty = match binding.kind {
-        Kind::Uniform => wgpu::BufferBindingType::Uniform,
-        kind => wgpu::BufferBindingType::Storage { read_only: kind == Kind::Read },
+        Access::Uniform => wgpu::BufferBindingType::Uniform,
+        kind => wgpu::BufferBindingType::Storage { read_only: kind == Access::Read },
     };
     wgpu::BindGroupLayoutEntry {
         binding: binding.binding,

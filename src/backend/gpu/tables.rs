@@ -2,10 +2,11 @@
 
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
-use crate::facet::FacetPair;
-use crate::obstacle::Obstacle;
 use crate::particles::{Field, Type};
-use crate::state::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK, State};
+use crate::rows::{
+    Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params, REDUCTION_BLOCK, SCAN_BLOCK,
+};
+use crate::state::State;
 use crate::step;
 use crate::tensor::Space;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};

@@ -4,50 +4,16 @@
 use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
+use crate::method::Method;
 use crate::particles::{Counts, Particles};
 use crate::pass::{Pass, Stage};
-use crate::scene::file::{Density, Gradient, Integrator};
+use crate::rows::{Body, REDUCTION_BLOCK, SCAN_BLOCK};
 use crate::smoothing::Smoothing;
-use crate::state::{Body, Method, REDUCTION_BLOCK, SCAN_BLOCK};
 use crate::tensor::{Plane, Tuple};
-
-fn method() -> Method {
-    Method {
-        dimension: 2,
-        kind: Default::default(),
-        corrected_kernel: None,
-        laws: vec![Default::default()],
-        hourglass: false,
-        bond_table: false,
-        gap: None,
-        obstacles: false,
-        friction: false,
-        contact: Default::default(),
-        quasi_static: None,
-        smoothing: Smoothing::CubicSpline,
-        integrator: Integrator::Leapfrog,
-        density: Density::Continuity,
-        gradient: Gradient::Plain,
-        shear: true,
-        many_bodies: false,
-        coupling: false,
-        constraints: false,
-        symmetry: false,
-        periodic: false,
-        body_force: false,
-        viscosity: false,
-        xsph: false,
-        velocity_filter: false,
-        artificial_stress: None,
-        internal_energy: false,
-        dissipated_energy: false,
-        compensated: false,
-    }
-}
 
 /// A square lattice of spacing 1 with a velocity that varies, in an order that is not that of the cells.
 fn state(side: usize) -> State<Plane<f32>> {
-    let (method, count, cells) = (method(), side * side, side / 2 + 5);
+    let (method, count, cells) = (Method::default(), side * side, side / 2 + 5);
     let mut particles = Particles::allocate(Counts { particles: count, ..Counts::default() }, &step::fields(&method));
     for i in 0..count {
         let place = (i * 7919) % count;
@@ -252,7 +218,7 @@ fn timing_tells_each_call_and_leaves_the_clock() {
     let Some(mut gpu) = toy_gpu(&state(30), None) else { return };
     gpu.begin_segment(0.0, 1e9, 1000, false).unwrap();
     let before = gpu.read_clock().unwrap();
-    let calls = step::step(&method());
+    let calls = step::step(&Method::default());
     let times = gpu.time_passes(&calls, 2).unwrap();
     let names: Vec<&str> = times.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, calls.iter().map(|call| call.pass.name()).collect::<Vec<_>>());

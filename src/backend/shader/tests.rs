@@ -58,7 +58,7 @@ const TWO_ENTRIES: &str = "
 fn reflection_tells_what_each_entry_point_uses() {
     let seen = reflect(TWO_ENTRIES, "main").unwrap();
     let short: Vec<_> = seen.bindings.iter().map(|b| (b.group, b.binding, b.name.as_str(), b.kind)).collect();
-    let wanted = [(0, 0, "params", Kind::Uniform), (0, 1, "velocity", Kind::Read), (0, 2, "displacement", Kind::ReadWrite)];
+    let wanted = [(0, 0, "params", Access::Uniform), (0, 1, "velocity", Access::Read), (0, 2, "displacement", Access::ReadWrite)];
     assert_eq!(short, wanted);
     assert_eq!((seen.workgroup, seen.overrides), (64, vec!["scale".to_string()]));
     let other = reflect(TWO_ENTRIES, "other").unwrap();
@@ -67,7 +67,7 @@ fn reflection_tells_what_each_entry_point_uses() {
 }
 
 fn methods() -> Vec<Method> {
-    use crate::scene::file::{ArtificialForm, Density, Gradient, Integrator};
+    use crate::method::{ArtificialForm, Density, Gradient, Integrator};
     use crate::smoothing::Smoothing;
     let switches: [fn(&mut Method); 14] = [
         |_| (),
@@ -91,34 +91,13 @@ fn methods() -> Vec<Method> {
         for k in 0..2 * 2 * 3 * 3 * 2 {
             let mut method = Method {
                 dimension,
-                kind: Default::default(),
-                corrected_kernel: None,
-                laws: vec![Default::default()],
-                hourglass: false,
-                bond_table: false,
-                gap: None,
-                obstacles: false,
-                friction: false,
-                contact: Default::default(),
-                quasi_static: None,
                 smoothing: Smoothing::ALL[k % Smoothing::ALL.len()],
                 integrator: [Integrator::Leapfrog, Integrator::Rk4][k % 2],
                 density: [Density::Summation, Density::Continuity][k / 2 % 2],
                 gradient: [Gradient::Plain, Gradient::Corrected, Gradient::Adjoint][k / 4 % 3],
                 shear: false,
-                many_bodies: false,
-                coupling: false,
-                constraints: false,
-                symmetry: false,
-                periodic: false,
-                body_force: false,
-                viscosity: false,
-                xsph: false,
-                velocity_filter: false,
                 artificial_stress: forms[k / 12 % 3],
-                internal_energy: false,
-                dissipated_energy: false,
-                compensated: false,
+                ..Method::default()
             };
             // Every switch alone, then all that went before it too.
             let together = k / 36 == 1;
@@ -136,7 +115,7 @@ fn methods() -> Vec<Method> {
 
 /// Every set of laws, with each switch of the Total Lagrangian formulation alone and with all.
 fn lagrangian_methods(dimension: usize) -> Vec<Method> {
-    use crate::scene::file::{Density, Descent, Gradient, Integrator, Kind};
+    use crate::method::{Density, Descent, Formulation, Gradient, Integrator};
     use crate::smoothing::Smoothing;
     let switches: [fn(&mut Method); 10] = [
         |_| (),
@@ -155,34 +134,15 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
     for set in 1..16 {
         let mut together = Method {
             dimension,
-            kind: Kind::TotalLagrangian,
-            corrected_kernel: None,
-            gap: None,
-            obstacles: false,
-            friction: false,
-            contact: Default::default(),
-            quasi_static: None,
+            formulation: Formulation::TotalLagrangian,
             laws: all.into_iter().enumerate().filter(|(k, _)| set >> k & 1 == 1).map(|(_, law)| law).collect(),
-            hourglass: false,
-            bond_table: false,
             smoothing: Smoothing::ALL[set % Smoothing::ALL.len()],
             integrator: Integrator::Leapfrog,
             density: Density::Continuity,
             gradient: Gradient::Adjoint,
             shear: true,
-            many_bodies: false,
-            coupling: false,
-            constraints: false,
-            symmetry: false,
-            periodic: false,
-            body_force: false,
-            viscosity: false,
-            xsph: false,
-            velocity_filter: false,
             artificial_stress: None,
-            internal_energy: false,
-            dissipated_energy: false,
-            compensated: false,
+            ..Method::default()
         };
         for switch in switches {
             let mut alone = together.clone();
@@ -196,8 +156,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
 
 /// The same by corrected kernels, with every combination of their options.
 fn corrected_methods(dimension: usize) -> Vec<Method> {
-    use crate::scene::corrected_kernel::{Configuration, CorrectedKernel, Deformation, VelocityGradient};
-    use crate::scene::file::{Gradient, Integrator, Kind};
+    use crate::method::{Configuration, CorrectedKernel, Deformation, Formulation, Gradient, Integrator, VelocityGradient};
     let mut list = Vec::new();
     for (k, method) in lagrangian_methods(dimension).into_iter().filter(|method| !method.plastic()).enumerate() {
         let (configuration, deformation) = [
@@ -208,9 +167,9 @@ fn corrected_methods(dimension: usize) -> Vec<Method> {
         let velocity_gradient = [VelocityGradient::Difference, VelocityGradient::Printed][k / 3 % 2];
         let options = CorrectedKernel { correction: k / 6 % 2 == 0, configuration, deformation, velocity_gradient };
         let integrator = if method.memory() { Integrator::Leapfrog } else { Integrator::SspRk3 };
-        let (kind, corrected_kernel) = (Kind::CorrectedKernel, Some(options));
+        let (formulation, corrected_kernel) = (Formulation::CorrectedKernel, Some(options));
         let plain = Method { hourglass: false, gradient: Gradient::Plain, dissipated_energy: false, ..method };
-        list.push(Method { kind, corrected_kernel, integrator, ..plain });
+        list.push(Method { formulation, corrected_kernel, integrator, ..plain });
     }
     list
 }

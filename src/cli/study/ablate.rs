@@ -1,6 +1,7 @@
 //! Words of `lithosph study ablate`.
 
-use super::{PlaceWord, say};
+use super::place::PlaceWord;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::ablate;
 use crate::study::accuracy::parse_error;

@@ -1,8 +1,9 @@
 //! Words of `lithosph study accuracy` and of `lithosph study recommend`.
 
-use super::{PlaceWord, say};
+use super::place::PlaceWord;
+use crate::cli::say::say;
 use crate::run::Stop;
-use crate::study::accuracy::{self, Cost, Kind, Request};
+use crate::study::accuracy::{self, Cost, ErrorKind, Request};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,7 +25,7 @@ pub struct AccuracyArgs {
     observable: Option<String>,
     /// Which of its errors settings are judged by: its own norm unless given.
     #[arg(long, value_enum)]
-    kind: Option<Kind>,
+    kind: Option<ErrorKind>,
     /// Runs of each setting, each a row; the table at the end keeps the cheapest.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeats: u32,

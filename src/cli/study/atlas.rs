@@ -1,6 +1,6 @@
 //! Words of `lithosph study atlas`.
 
-use super::say;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::atlas;
 use clap::Args;

@@ -1,6 +1,6 @@
 //! Words of `lithosph study buckling`.
 
-use super::say;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::scene::Scene;
 use crate::study::buckling;

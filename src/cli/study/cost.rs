@@ -1,6 +1,7 @@
 //! Words of `lithosph study cost`.
 
-use super::{PlaceWord, say};
+use super::place::PlaceWord;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::cost;
 use clap::Args;

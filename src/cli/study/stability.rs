@@ -1,6 +1,6 @@
 //! Words of `lithosph study stability`.
 
-use super::say;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::stability;
 use clap::Args;

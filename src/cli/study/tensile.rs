@@ -1,6 +1,6 @@
 //! Words of `lithosph study tensile`.
 
-use super::say;
+use crate::cli::say::say;
 use crate::run::Stop;
 use crate::study::tensile::{self, Part};
 use clap::Args;

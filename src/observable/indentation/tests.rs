@@ -14,12 +14,12 @@ fn typed() -> Observe {
     Observe { of: Some("load".into()), over: Some("depth".into()), ..Observe::default() }
 }
 
-fn number(kind: &Kind, table: &Table, typed: &Observe) -> Result<f64, String> {
+fn number(kind: &ObservableKind, table: &Table, typed: &Observe) -> Result<f64, String> {
     let Value::Result(of) = kind.value else { panic!("a result") };
     of(table, typed)
 }
 
-fn assert_close(kind: &Kind, table: &Table, typed: &Observe, expected: f64, tolerance: f64) {
+fn assert_close(kind: &ObservableKind, table: &Table, typed: &Observe, expected: f64, tolerance: f64) {
     let found = number(kind, table, typed).unwrap();
     assert!((found / expected - 1.0).abs() < tolerance, "{}: {found} {expected}", kind.word);
 }

@@ -8,8 +8,9 @@
 //! Kinetic damping (Cundall 1982): free motion, stopped where the kinetic energy would fall, half a step back.
 
 use super::Measure;
-use crate::scene::file::Descent;
-use crate::state::{Balance, Clock, Fault, State};
+use crate::method::Descent;
+use crate::rows::{Balance, Clock, Fault};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 const START_MIXING: f64 = 0.1;

@@ -3,7 +3,7 @@
 use super::piece::Piece;
 use super::plane;
 use crate::check;
-use crate::observable::{KINDS, Kind, Table, Value};
+use crate::observable::{KINDS, ObservableKind, Table, Value};
 use crate::run::Finished;
 use crate::scene::Scene;
 use crate::scene::file::{Expect, Norm, Statistic};
@@ -83,7 +83,7 @@ impl Expected {
     }
 }
 
-fn kind(word: &str) -> Option<&'static Kind> {
+fn kind(word: &str) -> Option<&'static ObservableKind> {
     KINDS.iter().find(|kind| kind.word == word)
 }
 

@@ -4,6 +4,7 @@
 //! A piece is physics or numerics that the scene names ([`named`]), or a reduction: coarser, shorter, narrower, of a
 //! dimension or a body less ([`reduced`], [`plane`]). Rows of the file are not run again.
 
+mod found;
 mod judge;
 mod measure;
 mod named;
@@ -19,10 +20,10 @@ mod whole;
 #[cfg(test)]
 mod tests;
 
+pub use found::{Found, Request};
 pub use judge::Verdict;
 pub use piece::{Piece, Sort};
 
-use crate::backend::Choice;
 use crate::check;
 use crate::run::Stop;
 use crate::scene::Scene;
@@ -35,23 +36,6 @@ use measure::Expected;
 use runs::Runs;
 use std::path::PathBuf;
 
-/// What the command line asks of an ablation.
-#[derive(Debug, Clone, Default)]
-pub struct Request {
-    pub scene: PathBuf,
-    pub variant: Option<String>,
-    /// Overrides of the scene that is taken apart.
-    pub set: Vec<String>,
-    pub choice: Choice,
-    /// A fraction in place of the scene's tolerances.
-    pub error: Option<f64>,
-    /// Runs of the scene and of each piece; the cheapest counts.
-    pub repeats: u32,
-    /// `out/study/SCENE[-VARIANT]-ablate.csv` unless given.
-    pub out: Option<PathBuf>,
-    pub force: bool,
-}
-
 /// An ablation that can begin.
 pub struct Study {
     request: Request,
@@ -61,29 +45,6 @@ pub struct Study {
     expected: Vec<Expected>,
     observed: Vec<String>,
     file: PathBuf,
-}
-
-/// What an ablation found.
-pub struct Found {
-    judge: Judge,
-    /// The cheapest run without each piece.
-    rows: Vec<(Piece, Row)>,
-    /// The smallest model within tolerance and its run; `None` where every piece is needed.
-    pub smallest: Option<(Piece, Row)>,
-}
-
-impl Found {
-    /// Pieces and what they turned out to be.
-    pub fn verdicts(&self) -> impl Iterator<Item = (&Piece, Verdict)> {
-        self.rows.iter().map(|(piece, row)| (piece, self.judge.verdict(row)))
-    }
-
-    /// A verdict in words, with a remark where it saves nothing.
-    fn says(&self, piece: &Piece, row: &Row) -> String {
-        let verdict = self.judge.verdict(row);
-        let dear = verdict.may_go() && !self.judge.is_cheaper(piece.sort, row);
-        verdict.text(piece.sort) + if dear { ", but takes longer" } else { "" }
-    }
 }
 
 /// The word of a row that stands for the scene with all its pieces.

@@ -2,10 +2,11 @@
 
 use super::piece::{Piece, Sort, without, without_observables};
 use crate::material::Law;
+use crate::method::{Formulation, Gradient, Integrator};
 use crate::observable::{KINDS, fields_of_path};
 use crate::particles::{Field, Set};
 use crate::scene::Scene;
-use crate::scene::file::{Contact, File, Gradient, Integrator, Kind, Material, Observe};
+use crate::scene::file::{ContactTable, File, MaterialTable, Observe};
 
 /// Every named piece; `typed` is the file before copies of bodies are made.
 pub fn pieces(scene: &Scene, typed: &File) -> Vec<Piece> {
@@ -39,7 +40,7 @@ impl Named<'_> {
         let viscous_heat = if f.dissipated_energy && self.dissipates() == 1 { heat.clone() } else { Vec::new() };
         let hourglass = also(key("hourglass", "0"), self.without_fields(&[Field::HourglassEnergy]));
         let energy = also(key("internal_energy", "false"), self.without_fields(&[Field::InternalEnergy]));
-        let corrects = f.gradient() != Gradient::Plain && f.kind != Kind::CorrectedKernel;
+        let corrects = f.gradient() != Gradient::Plain && f.kind != Formulation::CorrectedKernel;
         let all = [
             (method.artificial_stress.is_some(), "artificial stress", key("artificial_stress", "none")),
             (method.viscosity, "viscosity", also(key("viscosity", "none"), viscous_heat)),
@@ -49,7 +50,7 @@ impl Named<'_> {
             (f.gradient() == Gradient::Quadratic, "quadratic terms of gradients", key("gradient", "adjoint")),
             (method.hourglass, "hourglass energy", hourglass),
             (
-                f.kind == Kind::CorrectedKernel && f.correction != Some(false),
+                f.kind == Formulation::CorrectedKernel && f.correction != Some(false),
                 "correction of the kernel",
                 key("correction", "false"),
             ),
@@ -65,7 +66,7 @@ impl Named<'_> {
         usize::from(self.scene.method.viscosity) + usize::from(self.scene.method.friction) + laws
     }
 
-    fn used(&self) -> impl Iterator<Item = (&String, &Material)> {
+    fn used(&self) -> impl Iterator<Item = (&String, &MaterialTable)> {
         self.file.material.iter().filter(|(name, _)| self.file.body.iter().any(|body| body.material == **name))
     }
 
@@ -73,7 +74,7 @@ impl Named<'_> {
         let mut list = Vec::new();
         for (name, material) in self.used() {
             let key = |key: &str, value: &str| format!("material.{name}.{key}={value}");
-            let elastic = if self.file.formulation.kind == Kind::Eulerian { "elastic" } else { "neo_hookean" };
+            let elastic = if self.file.formulation.kind == Formulation::Eulerian { "elastic" } else { "neo_hookean" };
             let hardening = material.hardening.map(|_| key("hardening", "none"));
             if let Some(hardening) = &hardening {
                 list.push(piece(format!("hardening of `{name}`"), vec![hardening.clone()]));
@@ -218,13 +219,13 @@ pub fn without_fields(scene: &Scene, file: &File, gone: &[Field]) -> Vec<String>
 }
 
 /// Laws of a contact that store energy.
-pub fn stores(contact: &Contact) -> usize {
+pub fn stores(contact: &ContactTable) -> usize {
     let all = [contact.potential.is_some(), contact.colour_field.is_some(), contact.gap.is_some()];
     all.into_iter().filter(|on| *on).count()
 }
 
 /// Words of the laws of a contact; beside another law the kernel is off, which is no law.
-fn laws(contact: &Contact) -> Vec<&'static str> {
+fn laws(contact: &ContactTable) -> Vec<&'static str> {
     let all = [
         ("kernel", contact.kernel.is_some() && !contact.touches() && contact.gap.is_none()),
         ("potential", contact.potential.is_some()),
@@ -235,7 +236,7 @@ fn laws(contact: &Contact) -> Vec<&'static str> {
     all.into_iter().filter(|(_, on)| *on).map(|(word, _)| word).collect()
 }
 
-fn frictions(contact: &Contact) -> impl Iterator<Item = (&'static str, f64)> {
+fn frictions(contact: &ContactTable) -> impl Iterator<Item = (&'static str, f64)> {
     let gap = contact.gap.as_ref().map(|gap| ("gap", gap.friction));
     gap.into_iter().chain(contact.zones.as_ref().map(|zones| ("zones", zones.friction)))
 }

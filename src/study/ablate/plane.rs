@@ -4,7 +4,7 @@
 use super::piece::{Piece, Sort, without};
 use super::uniform::{alike, along, flattened, span};
 use crate::scene::Scene;
-use crate::scene::file::{Axis, Body, Boundary, Expect, File, Fixed, Motion, Observe, ObstacleShape};
+use crate::scene::file::{Axis, BodyTable, Boundary, Expect, File, Fixed, Motion, Observe, ObstacleShape};
 use crate::scene::shape::Coordinates;
 
 /// Kinds of observables that are sums over particles, and so in proportion to the length of the axis.
@@ -120,7 +120,7 @@ impl<'a> Lower<'a> {
         Ok(list)
     }
 
-    fn body(&self, body: &Body) -> Result<Vec<String>, String> {
+    fn body(&self, body: &BodyTable) -> Result<Vec<String>, String> {
         let path = format!("body.{}", body.name);
         let named = |what: &str| format!("{what} of `{}`", body.name);
         self.flat(&named("the velocity"), body.velocity.as_ref())?;

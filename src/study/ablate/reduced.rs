@@ -6,7 +6,7 @@ use super::plane;
 use crate::output::csv::shortest;
 use crate::particles::{Field, Set};
 use crate::scene::Scene;
-use crate::scene::file::{Body, File};
+use crate::scene::file::{BodyTable, File};
 use crate::scene::packing::Packing;
 use crate::scene::shape::Shape;
 
@@ -59,7 +59,7 @@ fn coarser(file: &File) -> Piece {
 }
 
 /// Corners of a body that is a block packed on a square lattice, and so shows where that lattice lies.
-fn block(file: &File, body: &Body) -> Option<(Vec<f64>, Vec<f64>, f64)> {
+fn block(file: &File, body: &BodyTable) -> Option<(Vec<f64>, Vec<f64>, f64)> {
     let Shape::Block { min, max } = &body.shape else { return None };
     let axes = |corner: &crate::scene::shape::Coordinates| corner.vector().to_array()[..file.dimension].to_vec();
     let square = matches!(body.packing, Packing::Square);
@@ -93,7 +93,7 @@ fn kept(before: f64, after: f64) -> bool {
 }
 
 /// The typed anchor, as far from the corner of its block, or from the origin, in spacings as before.
-fn moved_anchor(file: &File, body: &Body, factor: f64) -> Option<Vec<f64>> {
+fn moved_anchor(file: &File, body: &BodyTable, factor: f64) -> Option<Vec<f64>> {
     let anchor = body.anchor.as_ref()?.vector().to_array();
     let corner = block(file, body).map_or_else(|| vec![0.0; file.dimension], |(low, ..)| low);
     let spacing = body.spacing.unwrap_or(file.spacing);
@@ -141,7 +141,7 @@ fn shorter(file: &File) -> Piece {
 }
 
 /// Without a body, what touches it, what holds it and what is observed of it.
-fn dropped(scene: &Scene, file: &File, body: &Body) -> Piece {
+fn dropped(scene: &Scene, file: &File, body: &BodyTable) -> Piece {
     let name = &body.name;
     let mut overrides = vec![without(&format!("body.{name}"))];
     let listed = |list: &str, k: usize| without(&format!("{list}.{k}"));
@@ -162,7 +162,7 @@ fn dropped(scene: &Scene, file: &File, body: &Body) -> Piece {
         let facets = Field::ALL.iter().copied().filter(|field| field.set() == Set::Facet);
         overrides.extend(without_fields(scene, file, &facets.chain([Field::ContactEnergy]).collect::<Vec<Field>>()));
     }
-    let remembers = |body: &Body| file.material.get(&body.material).is_some_and(|material| material.law.has_memory());
+    let remembers = |body: &BodyTable| file.material.get(&body.material).is_some_and(|material| material.law.has_memory());
     if !file.body.iter().any(|other| other.name != *name && remembers(other)) {
         overrides.extend(without_fields(scene, file, &[Field::InelasticStrain, Field::EquivalentPlasticStrain]));
     }

@@ -1,6 +1,7 @@
 //! Small scenes that carry what they do not need, and one that needs what it carries.
 
 use super::*;
+use crate::backend::Choice;
 use crate::study::accuracy::row::OK;
 
 /// A bar rings; another, far off, is to be kept from it.

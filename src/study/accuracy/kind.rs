@@ -5,7 +5,7 @@ use crate::scene::file::Norm;
 /// Errors as fractions: of the largest number of a reference, of the expected value, or where that is 0 of the largest
 /// number of the run's own series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Kind {
+pub enum ErrorKind {
     /// The largest distance from the reference.
     Max,
     /// The root of its mean square.
@@ -18,7 +18,7 @@ pub enum Kind {
     Fraction,
 }
 
-impl Kind {
+impl ErrorKind {
     /// As a column begins.
     pub fn word(self) -> &'static str {
         match self {

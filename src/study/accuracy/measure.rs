@@ -2,7 +2,7 @@
 
 use super::axis::one_line;
 use super::front::{Expected, worst};
-use super::kind::Kind;
+use super::kind::ErrorKind;
 use super::row::{OK, Row};
 use crate::check;
 use crate::observable::{KINDS, Value};
@@ -12,7 +12,7 @@ use crate::scene::file::{Expect, Norm};
 use crate::scene::read::hint;
 use std::path::Path;
 
-const OF_REFERENCE: [Kind; 4] = [Kind::Max, Kind::Rms, Kind::Final, Kind::Phase];
+const OF_REFERENCE: [ErrorKind; 4] = [ErrorKind::Max, ErrorKind::Rms, ErrorKind::Final, ErrorKind::Phase];
 
 /// Errors up to which the cheapest setting is told, over 1 or over a tolerance.
 const GOALS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
@@ -22,7 +22,7 @@ const GOALS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 pub struct Measures {
     pub expected: Vec<Expected>,
     /// Index of an expectation, and how its distance is measured.
-    fractions: Vec<(usize, Kind)>,
+    fractions: Vec<(usize, ErrorKind)>,
     /// The fraction that settings are judged by; the largest error over its tolerance where there is none.
     judge: Option<usize>,
 }
@@ -32,9 +32,9 @@ impl Measures {
     ///
     /// # Errors
     /// One sentence where there is none, or none that can be measured as asked for.
-    pub fn new(scene: &Scene, judge: Option<&str>, kind: Option<Kind>) -> Result<Self, String> {
+    pub fn new(scene: &Scene, judge: Option<&str>, kind: Option<ErrorKind>) -> Result<Self, String> {
         let expected = expected(scene)?;
-        let fractions: Vec<(usize, Kind)> =
+        let fractions: Vec<(usize, ErrorKind)> =
             expected.iter().enumerate().flat_map(|(k, e)| kinds(scene, &e.name).into_iter().map(move |kind| (k, kind))).collect();
         let judge = match (judge, kind) {
             (None, None) => usual_judge(scene, &expected, &fractions),
@@ -49,7 +49,7 @@ impl Measures {
         own.chain(self.fractions.iter().map(|fraction| self.column(fraction))).collect()
     }
 
-    fn column(&self, (k, kind): &(usize, Kind)) -> String {
+    fn column(&self, (k, kind): &(usize, ErrorKind)) -> String {
         format!("{}_{}", kind.word(), self.expected[*k].name)
     }
 
@@ -124,7 +124,7 @@ impl Measures {
         };
         let own = |k: usize| expect(k).and_then(|(name, e)| check::error(scene, finished, folder, name, &e));
         let own: Vec<Result<f64, String>> = (0..self.expected.len()).map(own).collect();
-        let fraction = |&(k, kind): &(usize, Kind)| {
+        let fraction = |&(k, kind): &(usize, ErrorKind)| {
             let (name, expect) = expect(k).ok()?;
             let found = match kind.norm() {
                 None => check::fraction(scene, finished, name, &expect),
@@ -160,13 +160,13 @@ fn expected(scene: &Scene) -> Result<Vec<Expected>, String> {
 }
 
 /// Fractions that an expectation has: of a value 0 only where there is a series to compare with.
-fn kinds(scene: &Scene, name: &str) -> Vec<Kind> {
+fn kinds(scene: &Scene, name: &str) -> Vec<ErrorKind> {
     let expect = &scene.file.expect[name];
     let word = &scene.file.observe[name].kind;
     let single = KINDS.iter().any(|kind| kind.word == word && matches!(kind.value, Value::Result(_)));
     match (&expect.reference, expect.value) {
         (Some(_), _) => OF_REFERENCE.to_vec(),
-        (None, Some(value)) if value != 0.0 || !single => vec![Kind::Fraction],
+        (None, Some(value)) if value != 0.0 || !single => vec![ErrorKind::Fraction],
         _ => Vec::new(),
     }
 }
@@ -175,9 +175,9 @@ fn kinds(scene: &Scene, name: &str) -> Vec<Kind> {
 fn asked(
     scene: &Scene,
     expected: &[Expected],
-    fractions: &[(usize, Kind)],
+    fractions: &[(usize, ErrorKind)],
     name: Option<&str>,
-    kind: Option<Kind>,
+    kind: Option<ErrorKind>,
 ) -> Result<usize, String> {
     let names: Vec<&str> = expected.iter().map(|expected| expected.name.as_str()).collect();
     let own = |k: usize| {
@@ -191,10 +191,10 @@ fn asked(
                 format!("--observable {name}: no expectation with a value or a reference{}", hint(name, &names))
             })?),
         };
-    let fits = |&(k, found): &(usize, Kind)| {
+    let fits = |&(k, found): &(usize, ErrorKind)| {
         let as_asked = match kind {
             Some(kind) => found == kind,
-            None => found == Kind::Fraction || found.norm() == Some(own(k)),
+            None => found == ErrorKind::Fraction || found.norm() == Some(own(k)),
         };
         as_asked && index.is_none_or(|index| index == k)
     };
@@ -202,18 +202,19 @@ fn asked(
         (Some(name), None) => format!("--observable {name}: its error has nothing to be a fraction of"),
         (_, kind) => {
             let of = name.map_or_else(|| names.join(", "), str::to_string);
-            format!("--kind {}: no such error of {of}", kind.map_or("", Kind::word))
+            format!("--kind {}: no such error of {of}", kind.map_or("", ErrorKind::word))
         }
     };
     fractions.iter().position(fits).ok_or_else(missing)
 }
 
 /// The first expectation with a reference, in its own norm; else the first that is relative; else the only one.
-fn usual_judge(scene: &Scene, expected: &[Expected], fractions: &[(usize, Kind)]) -> Option<usize> {
+fn usual_judge(scene: &Scene, expected: &[Expected], fractions: &[(usize, ErrorKind)]) -> Option<usize> {
     let expect = |k: usize| &scene.file.expect[&expected[k].name];
-    let own_norm =
-        |&(k, kind): &(usize, Kind)| expect(k).reference.is_some() && kind.norm() == Some(expect(k).norm.unwrap_or(Norm::Max));
-    let relative = |&(k, kind): &(usize, Kind)| kind == Kind::Fraction && expect(k).relative;
+    let own_norm = |&(k, kind): &(usize, ErrorKind)| {
+        expect(k).reference.is_some() && kind.norm() == Some(expect(k).norm.unwrap_or(Norm::Max))
+    };
+    let relative = |&(k, kind): &(usize, ErrorKind)| kind == ErrorKind::Fraction && expect(k).relative;
     let only = || (expected.len() == 1 && fractions.len() == 1).then_some(0);
     fractions.iter().position(own_norm).or_else(|| fractions.iter().position(relative)).or_else(only)
 }

@@ -2,7 +2,7 @@
 //! setting, the error against what the scene expects, and what it took.
 //!
 //! An error is what the scene's own tolerance bounds ([`check::error`]): a fraction where the expectation is
-//! `relative`, else in the observable's unit. Beside it stand fractions ([`Kind`]), by one of which settings are judged:
+//! `relative`, else in the observable's unit. Beside it stand fractions ([`ErrorKind`]), by one of which settings are judged:
 //! on a chart of error against cost, in the table of the cheapest for each error, and where one is recommended. The rows of a file are not run again, so that the same command goes on
 //! where a kill left it. A run that failed has its row too.
 
@@ -38,7 +38,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use table::{Header, Table};
 
-pub use kind::Kind;
+pub use kind::ErrorKind;
 pub use recommend::parse_error;
 pub use row::Cost;
 
@@ -54,7 +54,7 @@ pub struct Request {
     /// The expectation by whose error settings are judged; see [`Measures`].
     pub observable: Option<String>,
     /// By which of its fractions settings are judged; by the expectation's own norm unless given.
-    pub kind: Option<Kind>,
+    pub kind: Option<ErrorKind>,
     pub repeats: u32,
     /// `out/study/SCENE[-VARIANT]-accuracy.csv` unless given.
     pub out: Option<PathBuf>,

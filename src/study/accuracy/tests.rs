@@ -1,7 +1,7 @@
 use super::axis::{Axis, Value};
 use super::chart::named;
 use super::front::{Expected, best, front, worst};
-use super::kind::Kind;
+use super::kind::ErrorKind;
 use super::matrix::Matrix;
 use super::measure::{Measures, brief};
 use super::names::Names;
@@ -260,7 +260,7 @@ fn settings_are_judged_by_one_error() {
         None,
         &[],
     );
-    let refused = Measures::new(&scene.unwrap(), None, Some(Kind::Rms)).unwrap_err();
+    let refused = Measures::new(&scene.unwrap(), None, Some(ErrorKind::Rms)).unwrap_err();
     assert_eq!(refused, "--kind rms: no such error of a");
 }
 

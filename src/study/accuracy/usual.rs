@@ -4,8 +4,8 @@
 use super::axis::{Axis, Value};
 use super::matrix::Group;
 use crate::material::Law;
+use crate::method::{Formulation, Gradient};
 use crate::scene::Scene;
-use crate::scene::file::{Gradient, Kind};
 use crate::smoothing::Smoothing;
 
 /// Particles up to which half the spacing is tried too.
@@ -20,17 +20,17 @@ pub fn groups(scene: &Scene) -> Vec<Group> {
     groups.push(vec![axis("formulation.smoothing", kernels.map(|word| Value::parse(&word)).collect())]);
     groups.push(vec![others("formulation.smoothing_length", &[1.2, 1.3, 1.5, 1.8], Some(typed.smoothing_length))]);
     match typed.kind {
-        Kind::TotalLagrangian => {
+        Formulation::TotalLagrangian => {
             groups.push(vec![others("formulation.hourglass", &[0.1, 0.2, 0.5], Some(file.hourglass()))]);
             groups.push(words("formulation.gradient", &[if gradient == Gradient::Quadratic { "adjoint" } else { "quadratic" }]));
         }
-        Kind::Eulerian => {
+        Formulation::Eulerian => {
             let alpha = typed.viscosity.as_ref().map(|viscosity| viscosity.alpha);
             groups.push(vec![others("formulation.viscosity.alpha", &[0.1, 1.0], alpha)]);
             groups.push(vec![others("formulation.xsph", &[0.1, 0.5], typed.xsph)]);
             groups.push(words("formulation.gradient", &[if gradient == Gradient::Adjoint { "plain" } else { "adjoint" }]));
         }
-        Kind::CorrectedKernel => groups.push(words("formulation.configuration", &["current", "reference"])),
+        Formulation::CorrectedKernel => groups.push(words("formulation.configuration", &["current", "reference"])),
     }
     groups.push(vec![axis("formulation.kind", vec![other_formulation(scene)])]);
     groups
@@ -79,8 +79,8 @@ fn halves(scene: &Scene) -> bool {
 fn other_formulation(scene: &Scene) -> Value {
     let typed = &scene.file.formulation;
     let (kind, from, to) = match typed.kind {
-        Kind::Eulerian => ("total_lagrangian", Law::Elastic, "st_venant_kirchhoff"),
-        Kind::TotalLagrangian | Kind::CorrectedKernel => ("eulerian", Law::NeoHookean, "elastic"),
+        Formulation::Eulerian => ("total_lagrangian", Law::Elastic, "st_venant_kirchhoff"),
+        Formulation::TotalLagrangian | Formulation::CorrectedKernel => ("eulerian", Law::NeoHookean, "elastic"),
     };
     let given = [
         ("viscosity", typed.viscosity.is_some()),

@@ -4,8 +4,9 @@
 use super::band::{Band, Factors};
 use super::tangent::Pattern;
 use crate::pass::{Call, Pass, Stage, force_scale, unbalanced};
+use crate::rows::Clock;
 use crate::scene::Scene;
-use crate::state::{Clock, State};
+use crate::state::State;
 use crate::step;
 use crate::tensor::{Real, Space};
 

@@ -6,7 +6,8 @@
 
 use super::band::Band;
 use super::path::{Path, Unknown, difference};
-use crate::state::{NEIGHBOR_MASK, State};
+use crate::rows::NEIGHBOR_MASK;
+use crate::state::State;
 use crate::tensor::Space;
 
 /// Which unknowns act on which forces, and which are changed together.

@@ -1,8 +1,9 @@
 //! What stands around what is shown: title, legend, axes, small print.
 
+use super::axis::Style;
 use super::canvas::{self, Align, Canvas, GRID, INK, PALE_INK};
 use super::scale::Scale;
-use super::{Style, paragraph, wrapped};
+use super::text::{paragraph, wrapped};
 
 const TITLE: f64 = 15.0;
 const LABEL: f64 = 13.0;

@@ -3,56 +3,26 @@
 //! A picture is laid out once, in a list of marks ([`canvas`]), which plotters' backends paint, so that both files show
 //! the same. Its letters are those of DejaVu Sans, which the program carries, so that it needs no fonts of the system.
 
+mod axis;
 mod canvas;
 mod frame;
 mod labels;
 mod map;
 mod page;
 mod scale;
+mod text;
 
 #[cfg(test)]
 mod tests;
 
+pub use axis::{Axis, Style};
 pub use page::{Page, Section, Table};
 
-use canvas::{Align, Canvas};
+use canvas::Canvas;
 use std::path::Path;
 
 /// Width and height of a picture, in CSS pixels; a PNG has twice as many each way.
 pub(super) const SIZE: [f64; 2] = [460.0, 370.0];
-
-/// What is measured along one side of a picture.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
-    /// With its unit.
-    pub label: String,
-    /// In powers of ten; what is not positive is shown at the lower end.
-    pub log: bool,
-    /// Found from what is shown unless given.
-    pub range: Option<[f64; 2]>,
-}
-
-impl Axis {
-    pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), log: false, range: None }
-    }
-    pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), log: true, range: None }
-    }
-    /// Shows this range, and nothing beyond it.
-    #[must_use]
-    pub fn within(self, range: [f64; 2]) -> Self {
-        Self { range: Some(range), ..self }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Style {
-    Points,
-    Line,
-    LinePoints,
-    Dashed,
-}
 
 /// Points that belong together. What is not finite is left out and breaks a line.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,28 +160,4 @@ impl Series {
             places.iter().copied().flatten().for_each(|at| canvas.dot(at, 3.2, colour));
         }
     }
-}
-
-/// Lines of words no wider than this, in pixels.
-fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if canvas::width(&format!("{line} {word}"), size) <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
-}
-
-/// Writes lines from the top down; gives where the next would begin.
-fn paragraph(canvas: &mut Canvas, lines: &[String], [left, top]: [f64; 2], size: f64, bold: bool) -> f64 {
-    let colour = if bold { canvas::INK } else { canvas::PALE_INK };
-    for (k, line) in lines.iter().enumerate() {
-        canvas.text(line, [left, top + (k as f64 + 0.5) * 1.3 * size], size, colour, Align::Left, bold);
-    }
-    top + 1.3 * size * lines.len() as f64
 }

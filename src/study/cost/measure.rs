@@ -2,9 +2,9 @@
 
 use crate::backend::cpu::processor_seconds;
 use crate::backend::{Backend, Choice, open};
+use crate::rows::{Clock, Fault};
 use crate::run::Stop;
 use crate::scene::Scene;
-use crate::state::{Clock, Fault};
 use std::time::Instant;
 
 /// Looks at the clock, a tenth of a second or a step apart on the CPU; the best counts, since machines are shared.

@@ -3,12 +3,12 @@
 use super::setting::Setting;
 use super::simulate::parsed;
 use crate::backend::Choice;
+use crate::method::{Formulation, Integrator, Method};
 use crate::pass::{Call, Pass};
 use crate::run::{Options, Stop, run};
 use crate::scene::Scene;
-use crate::scene::file::{File, Integrator, Kick, Kind, Motion, Observe, Time, Wave};
+use crate::scene::file::{File, Kick, Motion, Observe, Time, Wave};
 use crate::scene::shape::Coordinates;
-use crate::state::Method;
 use crate::step;
 use std::f64::consts::FRAC_PI_4;
 
@@ -183,7 +183,7 @@ impl Kicked {
     }
 
     fn integrators(&self) -> impl Iterator<Item = Integrator> {
-        let lagrangian = self.method.kind == Kind::TotalLagrangian;
+        let lagrangian = self.method.formulation == Formulation::TotalLagrangian;
         LIMITED.into_iter().filter(move |&integrator| lagrangian || integrator != Integrator::Pefrl)
     }
 

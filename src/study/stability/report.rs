@@ -53,7 +53,7 @@ fn rows(paths: &[String], columns: &[&str], found: &[Found], of: impl Fn(&Found)
 }
 
 /// Word of a scene.
-fn word(integrator: crate::scene::file::Integrator) -> String {
+fn word(integrator: crate::method::Integrator) -> String {
     toml::Value::try_from(integrator).ok().and_then(|value| value.as_str().map(str::to_string)).unwrap_or_default()
 }
 

@@ -1,7 +1,8 @@
 //! What a scene says about the lattice whose stability is asked for.
 
+use crate::method::{self, ArtificialForm, Density, Formulation};
 use crate::scene::Scene;
-use crate::scene::file::{self, ArtificialForm, ArtificialSpacing, Density, File, Kind};
+use crate::scene::file::{self, ArtificialSpacing, File};
 use crate::scene::packing::Packing;
 use crate::scene::shape::{Coordinates, Shape};
 use crate::study::von_neumann::{
@@ -47,20 +48,20 @@ impl Setting {
             smoothing_length: body.smoothing_length,
         };
         let (theory, state) = match f.kind {
-            Kind::CorrectedKernel => return refuse("stability is that of the formulations eulerian and total_lagrangian"),
-            Kind::Eulerian if f.density == Density::Summation => {
+            Formulation::CorrectedKernel => return refuse("stability is that of the formulations eulerian and total_lagrangian"),
+            Formulation::Eulerian if f.density == Density::Summation => {
                 return refuse("the theory of stability has the density from continuity: formulation.density must be continuity");
             }
-            Kind::Eulerian if typed.deformation.is_some() || typed.damage.is_some() => {
+            Formulation::Eulerian if typed.deformation.is_some() || typed.damage.is_some() => {
                 return refuse(
                     "study.stability has the state of a Total Lagrangian body; an Eulerian one has relative_volume and deviatoric_stress",
                 );
             }
-            Kind::Eulerian => (Theory::Eulerian(Box::new(eulerian(scene, lattice))), None),
-            Kind::TotalLagrangian if body.law.has_memory() => {
+            Formulation::Eulerian => (Theory::Eulerian(Box::new(eulerian(scene, lattice))), None),
+            Formulation::TotalLagrangian if body.law.has_memory() => {
                 return refuse("the theory of stability is that of elastic laws: `st_venant_kirchhoff` and `neo_hookean`");
             }
-            Kind::TotalLagrangian => {
+            Formulation::TotalLagrangian => {
                 let (deformation, damage) =
                     uniform(&typed, scene.dimension()).map_err(|why| format!("{}: {why}", scene.label()))?;
                 let (gradient, hourglass) = (f.gradient(), scene.file.hourglass());
@@ -161,9 +162,9 @@ fn eulerian(scene: &Scene, lattice: Lattice) -> Equations {
     let mut medium = Medium::at_volume(body.relative_volume, body.density, body.bulk_modulus, body.shear_modulus);
     medium.deviator = body.deviator;
     let gradient = match f.gradient() {
-        file::Gradient::Plain => Gradient::Plain,
-        file::Gradient::Adjoint => Gradient::Adjoint,
-        file::Gradient::Corrected | file::Gradient::Quadratic => Gradient::Corrected,
+        method::Gradient::Plain => Gradient::Plain,
+        method::Gradient::Adjoint => Gradient::Adjoint,
+        method::Gradient::Corrected | method::Gradient::Quadratic => Gradient::Corrected,
     };
     let artificial = f.artificial_stress.as_ref().map_or(ArtificialStress::None, |typed| {
         let (epsilon, exponent, spacing) = (typed.epsilon, f64::from(typed.exponent), scene.artificial_spacing);
@@ -224,7 +225,7 @@ fn lattice_file(scene: &Scene) -> File {
     if let Some(typed) = &mut formulation.artificial_stress {
         typed.spacing = ArtificialSpacing::Given(scene.artificial_spacing);
     }
-    if formulation.kind == Kind::TotalLagrangian {
+    if formulation.kind == Formulation::TotalLagrangian {
         (formulation.list_margin, formulation.bond_table) = (None, Some(true));
     }
     file

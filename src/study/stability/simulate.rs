@@ -7,11 +7,12 @@
 use super::halo;
 use super::setting::Setting;
 use crate::backend::{Choice, open};
+use crate::method::Integrator;
 use crate::particles::{Field, Type};
+use crate::rows::Fault;
 use crate::scene::Scene;
-use crate::scene::file::{File, Integrator, Motion, Time, Wave};
+use crate::scene::file::{File, Motion, Time, Wave};
 use crate::scene::shape::Coordinates;
-use crate::state::Fault;
 use crate::study::von_neumann::Mode;
 use crate::tensor::{Line, Plane, Solid};
 use glam::DVec3;

@@ -1,6 +1,6 @@
 use super::*;
+use crate::method::Integrator;
 use crate::scene::Scene;
-use crate::scene::file::Integrator;
 
 const BASE: &str = "
     title = 'a lattice'

@@ -22,9 +22,9 @@
 use super::lattice::pairs;
 use super::{ArtificialStress, Lattice, Waves, outer};
 use crate::material;
+use crate::method::Gradient;
 use crate::pair::inverse_or;
-use crate::scene::file::Gradient;
-use crate::state::Body;
+use crate::rows::Body;
 use crate::tensor::{Line, Plane, Solid, Space};
 use glam::{DMat3, DVec3};
 

@@ -1,6 +1,6 @@
 //! What happens in lattices under pressure, and to modes that sums over neighbours do not see.
 
-use super::NEAREST;
+use super::measures::NEAREST;
 use crate::study::atlas::side::text;
 use crate::study::atlas::{Bound, Measure, Row, Side, Text, Trace};
 

@@ -1,6 +1,6 @@
 //! Kernels that are not corrected where the surface cuts them.
 
-use super::NEAREST;
+use super::measures::NEAREST;
 use crate::study::atlas::side::{set, text};
 use crate::study::atlas::{Bound, Measure, Row, Side, Text, Trace};
 

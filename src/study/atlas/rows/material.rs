@@ -1,6 +1,6 @@
 //! Laws that give way.
 
-use super::NEAREST;
+use super::measures::NEAREST;
 use crate::study::atlas::side::{set, text};
 use crate::study::atlas::{Bound, Row, Side, Text, Trace};
 

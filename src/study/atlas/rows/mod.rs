@@ -5,12 +5,13 @@ mod contact;
 mod fracture;
 mod kernels;
 mod material;
+mod measures;
 mod precision;
 mod rotation;
 mod tension;
 mod time_step;
 
-use super::{Measure, Row};
+use super::Row;
 
 /// Every row: a line each, in the order of the page.
 pub static ROWS: &[&Row] = &[
@@ -39,11 +40,3 @@ pub static ROWS: &[&Row] = &[
     &precision::DIGITS,
     &material::COLLAPSE,
 ];
-
-/// How far particles have come together.
-const NEAREST: Measure =
-    Measure { about: "least distance of two particles at the end, in spacings", of: |run| run.last("nearest") };
-
-/// How far a kick has grown.
-const GROWTH: Measure =
-    Measure { about: "largest speed over that of the kick", of: |run| Ok(run.most("speed")? / run.first("speed")?) };

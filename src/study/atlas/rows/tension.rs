@@ -1,6 +1,6 @@
 //! Particles that clump in tension, and what artificial stress does about it.
 
-use super::{GROWTH, NEAREST};
+use super::measures::{GROWTH, NEAREST};
 use crate::study::atlas::side::{set, text};
 use crate::study::atlas::{Bound, Measure, Row, Side, Text, Trace};
 

@@ -1,6 +1,6 @@
 //! Steps longer than an integrator bears, from the highest frequency of the discrete equations.
 
-use super::GROWTH;
+use super::measures::GROWTH;
 use crate::smoothing::Smoothing;
 use crate::study::atlas::side::text;
 use crate::study::atlas::{Bound, Row, Side, Text, Trace};

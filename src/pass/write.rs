@@ -4,6 +4,8 @@
 //! library was such glue. So the halving below is generic only over what the columns hold, it reaches the loop's body
 //! through a pointer, once a block of rows, and [`fork`] alone knows the threads.
 
+use crate::tensor::Space;
+
 /// Rows of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
 pub(crate) const GRAIN: usize = 128;
 /// Tasks for each core: a core that is done early finds another.
@@ -116,6 +118,15 @@ fn halve<R: Rows>(columns: R, first: usize, task: usize, work: &(dyn Fn(usize, R
 /// Does two things, on two cores if another one is free.
 fn fork(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
+}
+
+/// Sum that hands back what rounding dropped. The shader hides the intermediate sum from the optimiser.
+#[inline(always)]
+pub(crate) fn compensated_add<S: Space>(sum: &mut S::Vec, carry: &mut S::Vec, increment: S::Vec) {
+    let corrected = increment - *carry;
+    let total = *sum + corrected;
+    *carry = (total - *sum) - corrected;
+    *sum = total;
 }
 
 #[cfg(test)]

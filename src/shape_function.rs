@@ -12,8 +12,9 @@
 //! The particle at x is one of the b. Twin: shaders/lib/shape.wgsl, shape_node.wgsl and shape_columns.wgsl
 
 use crate::pair::{inverse_or, mirror_vector, pair_coupling, reference_separation, separation};
+use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use crate::smoothing::Scaled;
-use crate::state::{NEIGHBOR_BITS, NEIGHBOR_MASK, State};
+use crate::state::State;
 use crate::tensor::{Real, Space};
 
 /// A particle whose shape function does not vanish where particle a is, a itself among them.

@@ -1,0 +1,341 @@
+//! The words of the physics and numerics: what a scene may choose, and a [`Method`], the choice that it makes.
+//!
+//! Everything that follows from a choice reads it here: fields, passes, tables, and the shaders' text through [`FLAGS`].
+
+use crate::contact;
+use crate::contact::zones;
+use crate::material::Law;
+use crate::smoothing::Smoothing;
+use serde::{Deserialize, Serialize};
+
+/// In which configuration the sums run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Formulation {
+    /// Neighbours and kernels where the particles are now; stress from rates.
+    #[default]
+    Eulerian,
+    /// Neighbours and kernels of the reference configuration, found once; stress from the deformation gradient.
+    TotalLagrangian,
+    /// Fully corrected kernels and F as a state of its own: Shutov & Klyuchantsev 2019.
+    CorrectedKernel,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Density {
+    /// From the divergence of the velocity, Fuller (2.21).
+    #[default]
+    Continuity,
+    /// From the particles' masses, Fuller (2.22): wrong at free surfaces.
+    Summation,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Gradient {
+    /// Bare kernel gradient.
+    #[default]
+    Plain,
+    /// The velocity gradient is exact for linear fields; the force is the plain one.
+    Corrected,
+    /// The force is the adjoint of the corrected velocity gradient: keeps energy and angular momentum.
+    Adjoint,
+    /// Total Lagrangian: exact for quadratic displacements, for thin parts. Needs three layers of particles.
+    Quadratic,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ArtificialForm {
+    /// epsilon |P|/rho^2 where the pressure is tensile.
+    Scalar,
+    /// On tensile principal stresses: Gray, Monaghan & Swift 2001.
+    #[default]
+    Principal,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// Kick-drift-kick: one force a step, second order, symplectic for elastic bodies.
+    Leapfrog,
+    /// Heun.
+    Rk2,
+    /// Shu & Osher's third order: each stage an average of Euler steps.
+    SspRk3,
+    /// The classical fourth order.
+    Rk4,
+    /// Omelyan, Mryglod & Folk 2002: symplectic, fourth order, four forces a step.
+    Pefrl,
+}
+
+/// How equilibrium is found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Descent {
+    /// Fast inertial relaxation engine: Bitzek et al. 2006.
+    #[default]
+    Fire,
+    /// Velocities are set to zero at each peak of the kinetic energy: Cundall 1982.
+    KineticDamping,
+}
+
+/// Which terms of the force act.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GapForm {
+    /// All: the derivative of the energy.
+    #[default]
+    Potential,
+    /// Those along the normals: neither energy nor angular momentum is kept.
+    AlongNormals,
+}
+
+/// Where kernel sums run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Configuration {
+    #[default]
+    Current,
+    Reference,
+}
+
+/// How the deformation gradient is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Deformation {
+    /// From displacements, (8).
+    Reference,
+    /// From the velocity gradient, (9).
+    Evolved,
+}
+
+/// Which velocities the velocity gradient (6) sums.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VelocityGradient {
+    /// v_b - v_a
+    #[default]
+    Difference,
+    /// v_b, as printed: right only where the shape functions sum to one.
+    Printed,
+}
+
+/// The options of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CorrectedKernel {
+    pub correction: bool,
+    pub configuration: Configuration,
+    pub deformation: Deformation,
+    pub velocity_gradient: VelocityGradient,
+}
+
+impl CorrectedKernel {
+    pub fn current(self) -> bool {
+        self.configuration == Configuration::Current
+    }
+
+    pub fn evolved(self) -> bool {
+        self.deformation == Deformation::Evolved
+    }
+
+    /// Forces are summed where the particles are, F where they were: the neighbours of the reference configuration
+    /// are kept apart.
+    pub fn keeps_gradients(self) -> bool {
+        self.current() && !self.evolved()
+    }
+}
+
+/// Which physics and numerics a run is made of; decides its fields, its passes and its shaders' text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Method {
+    pub dimension: usize,
+    pub formulation: Formulation,
+    /// Options of that formulation.
+    pub corrected_kernel: Option<CorrectedKernel>,
+    /// Laws of the scene's materials, each once, in order of their numbers.
+    pub laws: Vec<Law>,
+    pub smoothing: Smoothing,
+    pub integrator: Integrator,
+    /// Equilibrium instead of motion, and how it is found.
+    pub quasi_static: Option<Descent>,
+    pub density: Density,
+    pub gradient: Gradient,
+    /// Some material resists shear.
+    pub shear: bool,
+    pub many_bodies: bool,
+    /// Some pair of bodies does not act as one through the kernel.
+    pub coupling: bool,
+    pub constraints: bool,
+    pub symmetry: bool,
+    pub periodic: bool,
+    pub body_force: bool,
+    /// Energy against motions that the deformation gradient does not see.
+    pub hourglass: bool,
+    /// On the CPU, keep the distinct bonds.
+    pub bond_table: bool,
+    /// How surfaces touch.
+    pub contact: contact::Laws,
+    /// Surfaces keep apart by their facets.
+    pub gap: Option<GapForm>,
+    /// Rigid obstacles stand in the way.
+    pub obstacles: bool,
+    /// Facets rub.
+    pub friction: bool,
+    pub viscosity: bool,
+    pub xsph: bool,
+    pub velocity_filter: bool,
+    pub artificial_stress: Option<ArtificialForm>,
+    pub internal_energy: bool,
+    pub dissipated_energy: bool,
+    /// Sums of displacement and velocity keep the digits that f32 would drop.
+    pub compensated: bool,
+}
+
+/// An elastic body in the plane, Eulerian, with nothing beside.
+impl Default for Method {
+    fn default() -> Self {
+        Self {
+            dimension: 2,
+            formulation: Formulation::Eulerian,
+            corrected_kernel: None,
+            laws: vec![Law::Elastic],
+            smoothing: Smoothing::CubicSpline,
+            integrator: Integrator::Leapfrog,
+            quasi_static: None,
+            density: Density::Continuity,
+            gradient: Gradient::Plain,
+            shear: true,
+            many_bodies: false,
+            coupling: false,
+            constraints: false,
+            symmetry: false,
+            periodic: false,
+            body_force: false,
+            hourglass: false,
+            bond_table: false,
+            contact: contact::Laws::default(),
+            gap: None,
+            obstacles: false,
+            friction: false,
+            viscosity: false,
+            xsph: false,
+            velocity_filter: false,
+            artificial_stress: None,
+            internal_energy: false,
+            dissipated_energy: false,
+            compensated: false,
+        }
+    }
+}
+
+/// Whether a word of [`FLAGS`] holds for a method.
+pub type Condition = fn(&Method) -> bool;
+
+/// Every word that `#if` may ask for in the shaders, and when it holds.
+pub const FLAGS: &[(&str, Condition)] = &[
+    ("line", |m| m.dimension == 1),
+    ("plane", |m| m.dimension == 2),
+    ("solid", |m| m.dimension == 3),
+    ("fire", |m| m.quasi_static == Some(Descent::Fire)),
+    ("finite_strain", |m| m.finite_strain()),
+    ("list_follows", |m| m.list_follows()),
+    ("staged", |m| m.staged()),
+    ("correction", |m| m.corrects(|sums| sums.correction)),
+    ("current", |m| m.corrects(CorrectedKernel::current)),
+    ("evolved", |m| m.corrects(CorrectedKernel::evolved)),
+    ("kept_gradients", |m| m.corrects(CorrectedKernel::keeps_gradients)),
+    ("difference", |m| m.corrects(|sums| sums.velocity_gradient == VelocityGradient::Difference)),
+    ("hourglass", |m| m.hourglass),
+    ("contact", |m| m.contact.with_energy()),
+    ("potentials", |m| !m.contact.potentials.is_empty()),
+    ("colour_field", |m| m.contact.colour_field),
+    ("zones_printed", |m| m.zoned(|zones| zones.form == zones::Form::Printed)),
+    ("zones_all", |m| m.zoned(|zones| zones.normals == zones::Normals::All)),
+    ("zones_friction", |m| m.zoned(|zones| zones.friction)),
+    ("facets", |m| m.facets()),
+    ("gap", |m| m.gap.is_some()),
+    ("along_normals", |m| m.gap == Some(GapForm::AlongNormals)),
+    ("obstacles", |m| m.obstacles),
+    ("friction", |m| m.friction),
+    ("listed_again", |m| m.listed_again()),
+    ("memory", |m| m.memory()),
+    ("plastic", |m| m.plastic()),
+    ("quasi_static", |m| m.quasi_static.is_some()),
+    ("shear", |m| m.eulerian() && m.shear),
+    ("many_bodies", |m| m.many_bodies),
+    ("coupling", |m| m.coupling),
+    ("constraints", |m| m.constraints),
+    ("symmetry", |m| m.symmetry),
+    ("periodic", |m| m.periodic),
+    ("body_force", |m| m.body_force),
+    ("viscosity", |m| m.viscosity),
+    ("xsph", |m| m.xsph),
+    ("artificial_stress", |m| m.artificial_stress.is_some()),
+    ("scalar_form", |m| m.artificial_stress == Some(ArtificialForm::Scalar)),
+    ("principal_form", |m| m.artificial_stress == Some(ArtificialForm::Principal)),
+    ("continuity", |m| m.eulerian() && m.density == Density::Continuity),
+    ("correct_rate", |m| m.gradient != Gradient::Plain),
+    ("quadratic_gradient", |m| m.gradient == Gradient::Quadratic),
+    ("adjoint", |m| m.gradient == Gradient::Adjoint),
+    ("internal_energy", |m| m.internal_energy),
+    ("dissipated_energy", |m| m.dissipated_energy),
+    ("dissipated_power", |m| m.dissipated_power()),
+    ("pair_velocity", |m| m.viscosity || m.internal_energy),
+    ("pair_volume", |m| m.viscosity || m.gradient == Gradient::Adjoint),
+    ("compensated", |m| m.compensated),
+];
+
+impl Method {
+    /// Stress follows from the deformation gradient.
+    pub fn finite_strain(&self) -> bool {
+        self.formulation != Formulation::Eulerian
+    }
+    /// The neighbour list follows the particles.
+    pub fn list_follows(&self) -> bool {
+        self.formulation == Formulation::Eulerian || self.corrected_kernel.is_some_and(|options| options.current())
+    }
+    /// Some list must follow the particles.
+    pub fn listed_again(&self) -> bool {
+        self.list_follows() || self.contact.any() || self.gap.is_some()
+    }
+    /// Bodies touch by pieces of their surfaces.
+    pub fn facets(&self) -> bool {
+        self.gap.is_some() || self.obstacles
+    }
+    /// Steps are made of stages.
+    pub fn staged(&self) -> bool {
+        !matches!(self.integrator, Integrator::Leapfrog | Integrator::Pefrl)
+    }
+    /// Viscosity turns energy into heat at a rate that the kicks add up; a law that relaxes adds up its own.
+    pub fn dissipated_power(&self) -> bool {
+        self.dissipated_energy && self.viscosity
+    }
+    /// Stress follows from the deformation gradient and from what some law remembers beside it.
+    pub fn memory(&self) -> bool {
+        self.finite_strain() && self.laws.iter().any(|law| law.has_memory())
+    }
+    /// Some law yields.
+    pub fn plastic(&self) -> bool {
+        self.laws.contains(&Law::J2)
+    }
+    /// Words of [`FLAGS`] whose condition holds, in their order.
+    pub fn flags(&self) -> Vec<&'static str> {
+        FLAGS.iter().filter(|(_, holds)| holds(self)).map(|(word, _)| *word).collect()
+    }
+
+    fn eulerian(&self) -> bool {
+        self.formulation == Formulation::Eulerian
+    }
+
+    /// Whether kernels are corrected, and with this option.
+    fn corrects(&self, has: fn(CorrectedKernel) -> bool) -> bool {
+        self.corrected_kernel.is_some_and(has)
+    }
+
+    /// Whether some bodies touch by zones, and with this option.
+    fn zoned(&self, has: fn(zones::Options) -> bool) -> bool {
+        self.contact.zones.is_some_and(has)
+    }
+}

@@ -1,0 +1,92 @@
+//! What a scene is made of: bodies, particles and what acts on them.
+
+use super::facets;
+use crate::material::Law;
+use crate::rows::{FacetPair, Obstacle};
+use glam::DVec3;
+
+/// A body's numbers.
+#[derive(Debug, Clone)]
+pub struct SceneBody {
+    pub name: String,
+    /// Name that it shares with its copies, or its own.
+    pub group: String,
+    pub spacing: f64,
+    pub smoothing_length: f64,
+    pub density: f64,
+    pub law: Law,
+    pub bulk_modulus: f64,
+    pub shear_modulus: f64,
+    /// Shear modulus over viscosity of a Maxwell body, else 0.
+    pub relaxation: f64,
+    /// Yield stress of a J2 body, and its hardening's coefficient and exponent; else 0, 0 and 1.
+    pub yield_stress: f64,
+    pub hardening: [f64; 2],
+    /// Volume over unstressed volume at the start.
+    pub relative_volume: f64,
+    /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
+    pub deviator: [f64; 6],
+}
+
+impl SceneBody {
+    pub fn youngs_modulus(&self) -> f64 {
+        9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
+    }
+
+    /// Speed of longitudinal waves.
+    pub fn sound_speed(&self) -> f64 {
+        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()
+    }
+}
+
+/// A particle at the start.
+#[derive(Debug, Clone, Copy)]
+pub struct Particle {
+    pub body: u32,
+    /// Boundary condition plus 1, or 0.
+    pub constraint: u32,
+    pub position: DVec3,
+    /// Unstressed.
+    pub volume: f64,
+    pub velocity: DVec3,
+}
+
+/// A rigid obstacle.
+#[derive(Debug, Clone)]
+pub struct SceneObstacle {
+    pub name: String,
+    pub shape: Obstacle<f64>,
+    /// At the start, or throughout where it is prescribed.
+    pub velocity: DVec3,
+    /// 0 where the motion is prescribed.
+    pub inverse_mass: f64,
+    /// Index among the constraints of what prescribes its velocity.
+    pub condition: Option<usize>,
+    /// How it touches each body.
+    pub pairs: Vec<FacetPair<f64>>,
+}
+
+/// A piece of a body's surface, and the number of the particle that carries it.
+#[derive(Debug, Clone, Copy)]
+pub struct SceneFacet {
+    pub owner: u32,
+    pub piece: facets::Facet,
+}
+
+/// A boundary condition.
+#[derive(Debug, Clone)]
+pub struct SceneConstraint {
+    pub name: String,
+    /// Axes along which the velocity is prescribed.
+    pub prescribed: [bool; 3],
+    /// Velocity along those axes, acceleration along the others.
+    pub vector: [f64; 3],
+    pub course: Vec<[f64; 2]>,
+}
+
+/// A mirror plane: points x with x . normal = offset.
+#[derive(Debug, Clone, Copy)]
+pub struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}

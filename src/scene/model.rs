@@ -1,0 +1,89 @@
+//! A scene as it runs.
+
+use super::members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
+use super::{copies, file, shape};
+use crate::method::Method;
+use crate::rows::{ContactPair, FacetPair};
+use glam::DVec3;
+use std::sync::OnceLock;
+
+/// A scene ready to run.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// File stem.
+    pub name: String,
+    pub variant: Option<String>,
+    pub file: file::File,
+    /// What is stored as `run.toml`.
+    pub text: String,
+    pub method: Method,
+    pub bodies: Vec<SceneBody>,
+    /// Weight of the kernel sums between bodies a and b.
+    pub coupling: Vec<Vec<f64>>,
+    /// How bodies a and b touch.
+    pub contacts: Vec<Vec<ContactPair<f64>>>,
+    /// How the surfaces of bodies a and b touch.
+    pub facet_pairs: Vec<Vec<FacetPair<f64>>>,
+    pub obstacles: Vec<SceneObstacle>,
+    /// In order of the numbers of the particles that carry them; none where nothing touches by surfaces.
+    pub facets: Vec<SceneFacet>,
+    pub constraints: Vec<SceneConstraint>,
+    /// In order of their numbers.
+    pub particles: Vec<Particle>,
+    /// Period of each axis, 0 where open.
+    pub period: [f64; 3],
+    pub planes: Vec<Plane>,
+    /// Spacing at which the artificial stress has its nominal strength.
+    pub artificial_spacing: f64,
+    /// Most neighbours of a particle in the reference configuration, found when first asked for.
+    pub(crate) most_bonds: OnceLock<u32>,
+}
+
+impl Scene {
+    pub fn dimension(&self) -> usize {
+        self.method.dimension
+    }
+
+    /// Names of the units of length, mass and time.
+    pub fn unit_names(&self) -> [&'static str; 3] {
+        match self.file.units {
+            file::Units::Si => ["m", "kg", "s"],
+            file::Units::MillimetreTonneSecond => ["mm", "t", "s"],
+            file::Units::Dimensionless => ["L", "M", "T"],
+        }
+    }
+
+    /// Constant mass of a particle.
+    pub fn mass(&self, number: usize) -> f64 {
+        let particle = &self.particles[number];
+        particle.volume * self.bodies[particle.body as usize].density
+    }
+
+    /// Index of the body, or of the first copy, of that name.
+    pub fn body_index(&self, name: &str) -> Option<usize> {
+        copies::named(&self.bodies, name).first().copied()
+    }
+
+    /// Scene and variant as one word, for folders and captions.
+    pub fn label(&self) -> String {
+        self.variant.as_ref().map_or_else(|| self.name.clone(), |variant| format!("{}-{variant}", self.name))
+    }
+
+    /// Numbers of the particles of a body or of all copies of it, inside a shape at the start, or both.
+    pub fn select(&self, body: Option<&str>, inside: Option<&shape::Shape>) -> Vec<usize> {
+        let wanted = body.map(|name| copies::named(&self.bodies, name));
+        (0..self.particles.len())
+            .filter(|&i| {
+                let particle = &self.particles[i];
+                wanted.as_ref().is_none_or(|list| list.binary_search(&(particle.body as usize)).is_ok())
+                    && inside.is_none_or(|shape| shape.contains(particle.position, self.dimension()))
+            })
+            .collect()
+    }
+
+    /// Number of the particle nearest to a point at the start.
+    pub fn nearest(&self, point: DVec3) -> usize {
+        let distance = |i: &usize| self.particles[*i].position.distance_squared(point);
+        (0..self.particles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    }
+}
