@@ -22,7 +22,7 @@ test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	cargo clippy --release --all-targets --quiet -- -D warnings
 	cargo clippy --release --all-targets --quiet --no-default-features -- -D warnings
 	@# Without HDF5 the program still has to run, not only to compile.
-	cargo test --release --no-default-features --test cli 2>&1 | tee target/test-without-hdf5.log
+	cargo test --release --no-default-features --test tests cli:: 2>&1 | tee target/test-without-hdf5.log
 	@status=0; cargo test --release --all-features --no-fail-fast 2>&1 | tee target/test.log || status=$$?; \
 	cargo run --release --quiet -- run scenes/colliding_rings.toml --backend cpu --set duration=100 --out target/vtk --force --quiet \
 	    && target/python/bin/python tests/vtk_reads_output.py target/vtk/particles.vtkhdf || status=1; \

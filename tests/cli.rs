@@ -1,8 +1,6 @@
 //! The command line from outside: exit codes, what is said, and what is left on the disk.
 
-mod cli_support;
-
-use cli_support::{SCENE, Said, Sandbox, said, signal, until};
+use crate::common::sandbox::{SCENE, Said, Sandbox, said, signal, until};
 use lithosph::output::csv;
 
 /// Exactly one line, with the program's name before it.

@@ -1,9 +1,9 @@
-//! What several test files share: random numbers, the device, and runs of a scene's text.
-// Each test file is a crate of its own and uses its own part.
-#![allow(dead_code)]
+//! What several tests share: random numbers, the device, runs of a scene's text, and folders to run the program in.
 
 pub mod deformation;
 pub mod matrix;
+pub mod patches;
+pub mod sandbox;
 
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Columns};

@@ -1,7 +1,7 @@
 //! Laws with an energy keep momentum, angular momentum and energy.
 
+use super::discs::{LAGRANGIAN, WITH_ENERGY, begun, collide, discs};
 use crate::common::Random;
-use crate::discs::{LAGRANGIAN, WITH_ENERGY, begun, collide, discs};
 use lithosph::pass::{Pass, Stage};
 use lithosph::state::State;
 use lithosph::tensor::Plane;

@@ -1,7 +1,7 @@
 //! Contact of surfaces by facets: what it keeps, and that it does not rub where it should not.
 
 use crate::common::{in_order, parse, steps};
-use crate::operators::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, energy, resultants};
+use crate::pass::lagrangian::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, energy, resultants};
 use glam::DVec3;
 use lithosph::backend::cpu::Cpu;
 use lithosph::particles::Field;

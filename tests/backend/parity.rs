@@ -3,18 +3,13 @@
 //! Before each pass the GPU and both twins get the same numbers, all of them f32. What they are compared by is
 //! [`compare`]'s rule; what is compared is every binding that the shader can write, as reflection finds it.
 
-#[path = "parity/cases.rs"]
 mod cases;
-mod common;
-#[path = "parity/compare.rs"]
 mod compare;
-#[path = "parity/tables.rs"]
 mod tables;
-#[path = "parity/trial.rs"]
 mod trial;
 
+use crate::common::{adapter, in_order, largest, parse, steps};
 use cases::{Case, cases};
-use common::{adapter, in_order, largest, parse, steps};
 use compare::Row;
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;

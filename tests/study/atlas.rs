@@ -1,8 +1,6 @@
 //! Every row of the atlas of failures behaves as it states; and its command goes on where it was stopped.
 
-mod cli_support;
-
-use cli_support::{Sandbox, said, signal, until};
+use crate::common::sandbox::{Sandbox, said, signal, until};
 use lithosph::study::atlas::Size;
 use lithosph::study::atlas::rows::ROWS;
 

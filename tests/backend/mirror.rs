@@ -9,7 +9,7 @@ use std::mem::offset_of;
 
 /// The text of a pass that uses every structure.
 fn text() -> String {
-    let scene = include_str!("../scenes/colliding_rings.toml");
+    let scene = include_str!("../../scenes/colliding_rings.toml");
     let method = Scene::parse(scene, "colliding_rings", None, &[]).unwrap().method;
     compose(Pass::Kick, &Method { constraints: true, body_force: true, ..method })
 }

@@ -2,7 +2,7 @@
 //! worst over all numbers of a table, and two units in the last place of the largest are always allowed.
 //! Integers are equal, and so is what is only moved.
 
-use crate::tables::{field, padding};
+use super::tables::{field, padding};
 use lithosph::pair::separation;
 use lithosph::particles::{Field, Set, Type};
 use lithosph::pass::Pass;

@@ -1,7 +1,7 @@
 //! Equilibrium at load steps: exact homogeneous stress, both ways of descent, loads, what is refused.
 
 use crate::common::adapter;
-use crate::patches::{HANGING, STRAIN, exact_force, patch};
+use crate::common::patches::{HANGING, STRAIN, exact_force, patch};
 use lithosph::backend::Choice;
 use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;

@@ -1,9 +1,7 @@
 //! The digits that f32 keeps because positions are sums of a reference and a displacement, and because sums are
 //! compensated; each beside the plain way of doing it, which is shown to fail.
 
-mod common;
-
-use common::{adapter, in_order, parse, steps};
+use crate::common::{adapter, in_order, parse, steps};
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::backend::gpu::Gpu;

@@ -1,6 +1,6 @@
 //! The tables of a state by their shader names; states in another precision; states full of random numbers.
 
-use crate::cases::{CELL, Case, EDGE};
+use super::cases::{CELL, Case, EDGE};
 use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;

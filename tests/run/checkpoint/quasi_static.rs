@@ -1,19 +1,13 @@
 //! A search for equilibrium that is killed between load steps goes on to the same bits.
 
-#![cfg(feature = "hdf5")]
-
-mod cli_support;
-#[path = "lagrangian/patches.rs"]
-#[allow(dead_code)]
-mod scenes;
-
-use cli_support::{Sandbox, signal, until};
+use crate::common::patches;
+use crate::common::sandbox::{Sandbox, signal, until};
 use lithosph::output::vtkhdf;
 
 #[test]
 fn a_killed_search_goes_on() {
     let sandbox = Sandbox::new("resume-quasi-static");
-    sandbox.write("patch.toml", &scenes::patch(2));
+    sandbox.write("patch.toml", &patches::patch(2));
     // Half way the metal yields: what it remembers goes on too.
     let metal = ["--set", "material.rubber.law='j2'", "--set", "material.rubber.yield_stress=0.05"];
     let slow = ["--set", "quasi_static.load_steps=100", "--set", "quasi_static.residual=1e-9", "--set", "output.frames=0.05"];

@@ -1,9 +1,7 @@
 //! Every composed shader is valid WGSL and binds nothing that it does not use; no source asks a device for what
 //! devices do badly or not at all.
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use lithosph::backend::shader::{Shader, compose};
 use lithosph::material::Law;
 use lithosph::registry::Registry;

@@ -10,7 +10,6 @@ use lithosph::scene::Scene;
 use lithosph::state::Body;
 use lithosph::tensor::{Line, Plane, Real, Solid, Space};
 
-#[path = "plastic_flow.rs"]
 mod plastic_flow;
 use plastic_flow::Flow;
 

@@ -1,8 +1,5 @@
 //! Runs the built program in a folder of its own.
 
-// Each test program uses a part of this.
-#![allow(dead_code)]
-
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

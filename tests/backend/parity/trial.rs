@@ -1,7 +1,7 @@
 //! One case: the state that the f64 twin leads, the GPU, and what came of comparing them.
 
-use crate::compare::{Row, Seen, assert_rounding_decides_nothing, compare};
-use crate::tables::{convert, different, download, names, upload};
+use super::compare::{Row, Seen, assert_rounding_decides_nothing, compare};
+use super::tables::{convert, different, download, names, upload};
 use bytemuck::bytes_of;
 use lithosph::backend::gpu::{Gpu, Options, Patch};
 use lithosph::backend::shader::{self, Kind, compose};

@@ -1,9 +1,5 @@
 //! Elastic waves and impacts against exact answers; the integrators' orders; where the energy goes.
 
-mod common;
-#[path = "elastic/plasticity.rs"]
-mod plasticity;
-
 use lithosph::backend::Choice;
 use lithosph::run::{Finished, Options, run};
 use lithosph::scene::Scene;

@@ -1,8 +1,6 @@
 //! `lithosph study tensile` from outside.
 
-mod cli_support;
-
-use cli_support::{Said, Sandbox};
+use crate::common::sandbox::{Said, Sandbox};
 
 fn study(sandbox: &Sandbox, more: &[&str]) -> Said {
     sandbox.lithosph(&[&["study", "tensile"], more].concat())

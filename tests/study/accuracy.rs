@@ -1,8 +1,6 @@
 //! `lithosph study` from outside.
 
-mod cli_support;
-
-use cli_support::{Said, Sandbox, said, signal, until};
+use crate::common::sandbox::{Said, Sandbox, said, signal, until};
 
 /// A bar of 20 particles rings between free ends; the mean of its energy is known to no digit that matters here.
 const BAR: &str = r#"title = "A bar"

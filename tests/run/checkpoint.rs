@@ -1,10 +1,8 @@
 //! A run that is killed and goes on gives the same bits as one that was never broken off.
 
-#![cfg(feature = "hdf5")]
+mod quasi_static;
 
-mod cli_support;
-
-use cli_support::{Said, Sandbox, signal, until};
+use crate::common::sandbox::{self, Said, Sandbox, signal, until};
 use lithosph::output::{csv, vtkhdf};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -148,13 +146,13 @@ fn another_place_or_scene_is_refused() {
 fn a_scene_with_expectations_of_variants_goes_on() {
     let sandbox = Sandbox::new("resume-expecting");
     let expect = "\n[expect.kinetic]\nvalue = 1\ntolerance = 1\nsource = \"x\"\nvariant = \"slow\"\n";
-    sandbox.write("expecting.toml", &format!("{}{expect}", cli_support::SCENE));
+    sandbox.write("expecting.toml", &format!("{}{expect}", sandbox::SCENE));
     interrupted(&sandbox, "expecting.toml");
     let child = sandbox.command(&["run", "--resume", "parts", "--backend", "cpu"]).spawn().unwrap();
     let before = frames(&sandbox.path("parts"));
     until("there are more frames", || frames(&sandbox.path("parts")) > before + 2);
     signal(&child, libc::SIGINT);
-    let said = cli_support::said(child);
+    let said = sandbox::said(child);
     assert_eq!(said.code, Some(130), "{said:?}");
 }
 

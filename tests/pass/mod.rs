@@ -1,0 +1,6 @@
+//! What the discrete operators must do exactly.
+
+pub mod lagrangian;
+mod shape_block;
+mod shape_functions;
+mod stress;
