@@ -1,7 +1,7 @@
 //! Every composed shader is valid WGSL and binds nothing that it does not use; no source asks a device for what
 //! devices do badly or not at all.
 
-use crate::common::Random;
+use crate::common::{Random, scene_files};
 use lithosph::backend::shader::{Shader, compose};
 use lithosph::material::Law;
 use lithosph::registry::Registry;
@@ -62,7 +62,7 @@ fn check(method: &Method, seen: &mut HashSet<String>) -> Vec<String> {
 #[test]
 fn shaders_of_every_scene_are_valid() {
     let (mut seen, mut wrong) = (HashSet::new(), Vec::new());
-    for path in files(&folder("scenes"), "toml") {
+    for path in scene_files() {
         let plain = Scene::open(&path, None, &[]).unwrap();
         let variants = plain.file.variant.keys().map(|name| Scene::open(&path, Some(name), &[]).unwrap());
         let methods: Vec<Method> = variants.map(|scene| scene.method).chain([plain.method.clone()]).collect();

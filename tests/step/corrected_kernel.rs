@@ -1,16 +1,12 @@
 //! The sheared plate of Shutov & Klyuchantsev 2019, section 6.1, by their method: which of its readings give the
 //! finite elements' answer, and how the others fail.
 
+use crate::common::{scene_file, scene_folder};
 use lithosph::backend::Choice;
 use lithosph::output::csv;
 use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-fn scenes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
-}
 
 /// The paper's plate with so many particles a side.
 fn run_plate(side: u32, changes: &[&str]) -> Result<Finished, Stop> {
@@ -18,7 +14,7 @@ fn run_plate(side: u32, changes: &[&str]) -> Result<Finished, Stop> {
     let mut all = vec![format!("spacing={:.17}", 1.0 / f64::from(side))];
     all.extend(["x", "y"].map(|axis| format!("observe.corner_{axis}.at=[{corner},{corner}]")));
     all.extend(changes.iter().map(|change| (*change).to_string()));
-    let scene = Scene::open(&scenes().join("sheared_plate_shutov.toml"), None, &all).unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::open(&scene_file("sheared_plate_shutov"), None, &all).unwrap_or_else(|error| panic!("{error}"));
     run(&scene, &Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() })
 }
 
@@ -42,7 +38,7 @@ fn errors(side: u32, changes: &[&str]) -> (f64, f64) {
 }
 
 fn reference() -> BTreeMap<String, Vec<f64>> {
-    let (names, rows) = csv::read(&scenes().join("reference/sheared_plate.csv")).unwrap();
+    let (names, rows) = csv::read(&scene_folder().join("reference/sheared_plate.csv")).unwrap();
     names.into_iter().enumerate().map(|(k, name)| (name, rows.iter().map(|row| row[k]).collect())).collect()
 }
 

@@ -1,10 +1,10 @@
 //! Elastic waves and impacts against exact answers; the integrators' orders; where the energy goes.
 
+use crate::common::scene_file;
 use lithosph::backend::Choice;
 use lithosph::run::{Finished, Options, run};
 use lithosph::scene::Scene;
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::path::Path;
 
 fn finished(scene: &Scene) -> Finished {
     let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
@@ -190,8 +190,7 @@ fn leapfrog_finds_its_internal_energy() {
 }
 
 fn rods(overrides: &[String]) -> Finished {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/rod_impact.toml");
-    finished(&Scene::open(&path, None, overrides).unwrap())
+    finished(&Scene::open(&scene_file("rod_impact"), None, overrides).unwrap())
 }
 
 /// Strand's rods: stress, density and place of the front against the jump conditions, at three resolutions.

@@ -1,6 +1,8 @@
 //! The step against linear theory: on a uniform, stressed lattice every run must grow at the rate that von
 //! Neumann's analysis of the same discrete equations gives, and a stable one must not grow.
 
+use crate::common::sandbox::Sandbox;
+use crate::common::scene_file;
 use lithosph::backend::Choice;
 use lithosph::run::{Finished, Options, Stop, run};
 use lithosph::scene::Scene;
@@ -365,10 +367,11 @@ fn maps_of_theory_and_of_runs_agree() {
 /// The command writes its tables, pictures and page, and runs no wave twice.
 #[test]
 fn a_study_goes_on_where_it_was_stopped() {
-    let folder = std::env::temp_dir().join(format!("lithosph-stability-{}", std::process::id()));
+    let sandbox = Sandbox::new("stability");
+    let folder = &sandbox.folder;
     let out = folder.join("block.csv");
     let request = |simulate: usize, cells: usize| Request {
-        scene: "scenes/tension_square.toml".into(),
+        scene: scene_file("tension_square"),
         vary: vec!["formulation.smoothing_length=1.3,1.8".into()],
         cells,
         simulate,
@@ -396,5 +399,4 @@ fn a_study_goes_on_where_it_was_stopped() {
         Err(Stop::Refused(reason)) => assert!(reason.contains("--force"), "{reason}"),
         other => panic!("{other:?}"),
     }
-    std::fs::remove_dir_all(&folder).unwrap();
 }
