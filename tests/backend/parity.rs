@@ -174,9 +174,17 @@ fn the_cases_switch_on_everything() {
     assert!(blocks > 0, "the prefix sum of no case takes more than one block");
 }
 
-/// Bindings that fail after a change of one pass's text.
-fn sabotage(pass: Pass, from: &'static str, to: &'static str, step: f32) -> Option<BTreeSet<String>> {
+/// A change of one pass's text.
+struct Sabotage {
+    pass: Pass,
+    from: &'static str,
+    to: &'static str,
+}
+
+/// Bindings that fail after it, at a fraction of the usual step.
+fn failures(sabotage: Sabotage, step: f32) -> Option<BTreeSet<String>> {
     let adapter = adapter()?;
+    let Sabotage { pass, from, to } = sabotage;
     let patch = move |at: Pass, text: String| {
         assert!(at != pass || text.contains(from), "there is nothing to sabotage");
         if at == pass { text.replace(from, to) } else { text }
@@ -190,23 +198,24 @@ fn sabotage(pass: Pass, from: &'static str, to: &'static str, step: f32) -> Opti
 }
 
 #[test]
-fn a_factor_half_a_percent_off_fails() {
-    let (from, to) = ("pair.x * pair.gradient", "pair.x * (1.005 * pair.gradient)");
-    let Some(bad) = sabotage(Pass::Force, from, to, 1.0) else { return };
+fn a_factor_half_a_percent_off_fails_where_it_is_used() {
+    let sabotage = Sabotage { pass: Pass::Force, from: "pair.x * pair.gradient", to: "pair.x * (1.005 * pair.gradient)" };
+    let Some(bad) = failures(sabotage, 1.0) else { return };
     let wanted = ["force acceleration", "force dissipated_power", "force internal_power"].map(String::from);
     assert_eq!(bad, wanted.into_iter().collect());
 }
 
 #[test]
 fn a_forgotten_store_fails() {
-    let Some(bad) = sabotage(Pass::Force, "internal_power[a] = sums.internal_power;", "", 1.0) else { return };
+    let sabotage = Sabotage { pass: Pass::Force, from: "internal_power[a] = sums.internal_power;", to: "" };
+    let Some(bad) = failures(sabotage, 1.0) else { return };
     assert_eq!(bad, BTreeSet::from(["force internal_power".to_string()]));
 }
 
 #[test]
 fn lost_compensation_fails() {
     let (from, to) = ("displacement_carry[a] = result.carry", "displacement_carry[a] = Vec()");
-    let Some(bad) = sabotage(Pass::Drift, from, to, SHORT) else { return };
+    let Some(bad) = failures(Sabotage { pass: Pass::Drift, from, to }, SHORT) else { return };
     assert_eq!(bad, BTreeSet::from(["drift displacement - displacement_carry".to_string()]));
 }
 
@@ -227,7 +236,7 @@ fn faults(adapter: &wgpu::Adapter, case: &Case, tamper: impl Fn(&mut State<Plane
 }
 
 #[test]
-fn faults_agree() {
+fn the_gpu_and_its_twin_stop_with_the_same_fault() {
     let Some(adapter) = adapter() else { return };
     let case = Case { formulation: "", ..cases(2)[0] };
     let tight = Case { formulation: "list_capacity = 8", ..case };

@@ -26,7 +26,7 @@ fn laws_with_an_energy_keep_all_in_an_oblique_collision() {
 /// In the Eulerian formulation the adjoint gradients keep angular momentum; its material has no energy to the last
 /// digit.
 #[test]
-fn and_so_they_do_in_the_eulerian_formulation() {
+fn laws_with_an_energy_keep_all_in_the_eulerian_formulation_too() {
     for (law, gap) in WITH_ENERGY {
         let scene = discs(&format!("kernel = 0\n{law}"), "gradient = 'adjoint'", [gap, 5.0], 0.02);
         let change = collide(&scene, 400.0);

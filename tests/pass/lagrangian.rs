@@ -140,7 +140,7 @@ fn pair_of_blocks(law: &str) -> Scene {
 }
 
 #[test]
-fn contact_forces_are_too_and_bodies_do_touch() {
+fn contact_forces_are_minus_the_gradient_of_the_energy_of_bodies_that_touch() {
     for law in ["barrier", "power", "quadratic", "repulsive"] {
         let scene = pair_of_blocks(law);
         assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&scene);
@@ -240,7 +240,7 @@ fn a_rotation_makes_no_stress() {
 }
 
 #[test]
-fn the_table_of_bonds_changes_nothing_but_speed() {
+fn the_table_of_bonds_gives_the_forces_of_the_list() {
     let accelerations = |formulation: &str| {
         let mut state = begun::<Plane<f64>>(&body(2, formulation)).state;
         assert_eq!(state.bond_table.rows.is_empty(), formulation.contains("false"));

@@ -3,4 +3,5 @@
 pub mod lagrangian;
 mod shape_block;
 mod shape_functions;
+mod strain_rate;
 mod stress;

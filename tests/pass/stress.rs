@@ -11,15 +11,23 @@ use lithosph::tensor::{Plane, Real, Solid, Space};
 const SHEAR: f64 = 1.0 / 2.6;
 const BULK: f64 = 1.0 / 1.2;
 const YIELD: f64 = 2e-3;
-/// Words of a scene, modulus and exponent.
-const HARDENINGS: [(&str, f64, f64); 3] = [
-    ("", 0.0, 1.0),
-    ("hardening = { linear = 0.01 }", 0.01, 1.0),
-    ("hardening = { power = { coefficient = 0.006, exponent = 0.3 } }", 0.006, 0.3),
+
+#[derive(Clone, Copy)]
+struct Hardening {
+    /// As a scene has it.
+    words: &'static str,
+    modulus: f64,
+    exponent: f64,
+}
+
+const HARDENINGS: [Hardening; 3] = [
+    Hardening { words: "", modulus: 0.0, exponent: 1.0 },
+    Hardening { words: "hardening = { linear = 0.01 }", modulus: 0.01, exponent: 1.0 },
+    Hardening { words: "hardening = { power = { coefficient = 0.006, exponent = 0.3 } }", modulus: 0.006, exponent: 0.3 },
 ];
 
-fn yield_stress(k: f64, (_, modulus, exponent): (&str, f64, f64)) -> f64 {
-    YIELD + modulus * k.powf(exponent)
+fn yield_stress(k: f64, hardening: Hardening) -> f64 {
+    YIELD + hardening.modulus * k.powf(hardening.exponent)
 }
 
 fn mises(s: &M) -> f64 {
@@ -39,51 +47,74 @@ fn elastic_rate(l: &M, s: &M) -> (M, M) {
 /// A path given by its velocity gradient, from time 0 to 1.
 type Path = fn(f64) -> M;
 
-/// Deviator and k at a time from those at another, in so many steps of the classical Runge-Kutta method.
-fn integrated(path: Path, hardening: (&str, f64, f64), from: (f64, M, f64), to: f64, flows: bool, steps: u32) -> (M, f64) {
-    let (mut t, mut s, mut k) = from;
-    let step = (to - t) / f64::from(steps);
-    let rates = |t: f64, s: &M, k: f64| {
-        let (rate, d) = elastic_rate(&path(t), s);
-        if !flows {
+/// Deviator and k at a time.
+#[derive(Clone, Copy)]
+struct Point {
+    time: f64,
+    deviator: M,
+    k: f64,
+}
+
+/// Takes a point along a path by the classical Runge-Kutta method.
+struct Integrator {
+    path: Path,
+    hardening: Hardening,
+    /// Plastically; else the body stays elastic.
+    flows: bool,
+    steps: u32,
+}
+
+impl Integrator {
+    /// Rates of the deviator and of k.
+    fn rates(&self, t: f64, s: &M, k: f64) -> (M, f64) {
+        let (rate, d) = elastic_rate(&(self.path)(t), s);
+        if !self.flows {
             return (rate, 0.0);
         }
-        let slope = hardening.1 * hardening.2 * k.powf(hardening.2 - 1.0);
+        let Hardening { modulus, exponent, .. } = self.hardening;
+        let slope = modulus * exponent * k.powf(exponent - 1.0);
         let growth = 1.5 / mises(s) * inner(s, &d) / (3.0 * SHEAR + slope);
         assert!(growth >= 0.0, "the path unloads at {t}");
         (plus(&rate, -3.0 * SHEAR * growth / mises(s), s), growth)
-    };
-    for _ in 0..steps {
-        let (s1, k1) = rates(t, &s, k);
-        let (s2, k2) = rates(t + 0.5 * step, &plus(&s, 0.5 * step, &s1), k + 0.5 * step * k1);
-        let (s3, k3) = rates(t + 0.5 * step, &plus(&s, 0.5 * step, &s2), k + 0.5 * step * k2);
-        let (s4, k4) = rates(t + step, &plus(&s, step, &s3), k + step * k3);
-        for (part, rate) in [(1.0, s1), (2.0, s2), (2.0, s3), (1.0, s4)] {
-            s = plus(&s, step * part / 6.0, &rate);
-        }
-        k += step * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0;
-        t += step;
     }
-    (s, k)
+
+    fn run(&self, from: Point, to: f64) -> Point {
+        let Point { time: mut t, deviator: mut s, mut k } = from;
+        let step = (to - t) / f64::from(self.steps);
+        for _ in 0..self.steps {
+            let (s1, k1) = self.rates(t, &s, k);
+            let (s2, k2) = self.rates(t + 0.5 * step, &plus(&s, 0.5 * step, &s1), k + 0.5 * step * k1);
+            let (s3, k3) = self.rates(t + 0.5 * step, &plus(&s, 0.5 * step, &s2), k + 0.5 * step * k2);
+            let (s4, k4) = self.rates(t + step, &plus(&s, step, &s3), k + step * k3);
+            for (part, rate) in [(1.0, s1), (2.0, s2), (2.0, s3), (1.0, s4)] {
+                s = plus(&s, step * part / 6.0, &rate);
+            }
+            k += step * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0;
+            t += step;
+        }
+        Point { time: t, deviator: s, k }
+    }
 }
 
 /// k before the paths: with none, the slope of a power is infinite.
 const WORKED: f64 = 0.01;
 
-fn exact(path: Path, hardening: (&str, f64, f64)) -> (M, f64) {
-    let start = (0.0, [[0.0; 3]; 3], WORKED);
+/// The end of a path: elastic up to the time of yield, which is searched for, and plastic from there.
+fn exact(path: Path, hardening: Hardening) -> Point {
+    let start = Point { time: 0.0, deviator: [[0.0; 3]; 3], k: WORKED };
+    let elastic = |steps| Integrator { path, hardening, flows: false, steps };
     let (mut low, mut high) = (0.0, 0.5);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        let q = mises(&integrated(path, hardening, start, middle, false, 50).0);
+        let q = mises(&elastic(50).run(start, middle).deviator);
         if q < yield_stress(WORKED, hardening) { low = middle } else { high = middle }
     }
-    let s = integrated(path, hardening, start, high, false, 200).0;
-    integrated(path, hardening, (high, s, WORKED), 1.0, true, 20_000)
+    let onset = Point { time: high, ..elastic(200).run(start, high) };
+    Integrator { path, hardening, flows: true, steps: 20_000 }.run(onset, 1.0)
 }
 
 /// One element: a few particles that all have the same velocity gradient.
-fn element<S: Space>(hardening: (&str, f64, f64), k: f64) -> State<S> {
+fn element<S: Space>(hardening: Hardening, k: f64) -> State<S> {
     let point = |x: f64| format!("{:?}", vec![x; S::DIMENSION]);
     let text = format!(
         "title = 'element'
@@ -110,7 +141,7 @@ fn element<S: Space>(hardening: (&str, f64, f64), k: f64) -> State<S> {
         point(0.0),
         point(2.0),
         point(0.5),
-        hardening.0
+        hardening.words
     );
     let mut state = parse(&text).state::<S>(false);
     state.particles.equivalent_plastic_strain.fill(S::Real::of(k));
@@ -170,8 +201,8 @@ fn tension_follows_the_closed_form() {
         let (s, e) = (deviator(&state), state.particles.volumetric_strain[1]);
         let mean = BULK * e / (1.0 + e);
         let errors = [(s[0][0] + mean) / q - 1.0, (s[1][1] + mean) / q, state.particles.equivalent_plastic_strain[1] / k - 1.0];
-        println!("{}: axial and side stress and k off by {errors:?}", hardening.0);
-        assert!(errors.iter().all(|error| error.abs() < 1e-6), "{}: {errors:?}", hardening.0);
+        println!("{}: axial and side stress and k off by {errors:?}", hardening.words);
+        assert!(errors.iter().all(|error| error.abs() < 1e-6), "{}: {errors:?}", hardening.words);
     }
 }
 
@@ -202,13 +233,13 @@ fn shear_and_torsion_follow_the_rate_equations() {
     let paths: [(&str, Path, u32); 3] = [("shear", shear, 500_000), ("twist", twist, 300_000), ("turning", turning, 300_000)];
     for (name, path, steps) in paths {
         for hardening in HARDENINGS {
-            let (s, k) = exact(path, hardening);
+            let Point { deviator: s, k, .. } = exact(path, hardening);
             let mut state = element::<Solid<f64>>(hardening, WORKED);
             walk(&mut state, path, steps);
             let grown = yield_stress(k, hardening) / YIELD;
             let errors = [apart(&deviator(&state), &s) / grown, (state.particles.equivalent_plastic_strain[1] / k - 1.0).abs()];
-            println!("{name}, {}: stress off by {:.1e}, k = {k:.3} by {:.1e}", hardening.0, errors[0], errors[1]);
-            assert!(errors.iter().all(|error| *error < 1e-6), "{name}, {}: {errors:?}", hardening.0);
+            println!("{name}, {}: stress off by {:.1e}, k = {k:.3} by {:.1e}", hardening.words, errors[0], errors[1]);
+            assert!(errors.iter().all(|error| *error < 1e-6), "{name}, {}: {errors:?}", hardening.words);
         }
     }
 }
@@ -224,7 +255,7 @@ fn a_rotation_of_the_whole_path_turns_the_stress() {
         let wanted = times(&times(&q, &deviator(&still)), &transposed(&q));
         let errors = [apart(&deviator(&turned), &wanted), (turned.particles.equivalent_plastic_strain[1] / k - 1.0).abs()];
         // The turn in the middle of a step is good to the second order of the step.
-        assert!(errors.iter().all(|error| *error < 1e-7) && k > 0.1, "{}: {errors:?}", hardening.0);
+        assert!(errors.iter().all(|error| *error < 1e-7) && k > 0.1, "{}: {errors:?}", hardening.words);
     }
 }
 
@@ -256,8 +287,8 @@ fn work_is_stored_or_plastic() {
         let stored = elastic_energy(BULK, SHEAR, state.particles.volumetric_strain[1], inner(&s, &s));
         let heat = 2.0 * state.particles.dissipated_energy[1];
         let error = ((stored + heat) / work - 1.0).abs();
-        println!("{}: stored energy and heat off the work by {error:.1e}", hardening.0);
-        assert!(error < 1e-6 && heat > 20.0 * stored && stored > 0.0, "{}: {error:e}", hardening.0);
+        println!("{}: stored energy and heat off the work by {error:.1e}", hardening.words);
+        assert!(error < 1e-6 && heat > 20.0 * stored && stored > 0.0, "{}: {error:e}", hardening.words);
     }
 }
 
@@ -269,8 +300,8 @@ fn single_precision_follows_double() {
         walk(&mut narrow, turning, 2000);
         let (a, b) = (wide.particles.equivalent_plastic_strain[1], f64::from(narrow.particles.equivalent_plastic_strain[1]));
         let errors = [apart(&deviator(&wide), &deviator(&narrow)), (b / a - 1.0).abs()];
-        println!("{}: f32 stress off by {:.1e}, k by {:.1e}", hardening.0, errors[0], errors[1]);
-        assert!(errors.iter().all(|error| *error < 2e-5), "{}: {errors:?}", hardening.0);
+        println!("{}: f32 stress off by {:.1e}, k by {:.1e}", hardening.words, errors[0], errors[1]);
+        assert!(errors.iter().all(|error| *error < 2e-5), "{}: {errors:?}", hardening.words);
     }
 }
 

@@ -93,17 +93,17 @@ fn has_adapter() -> bool {
 }
 
 #[test]
-fn on_the_processor() {
+fn a_killed_run_goes_on_to_the_same_bits_on_the_processor() {
     killed_and_resumed("resume-cpu", &["--backend", "cpu"]);
 }
 
 #[test]
-fn on_the_processor_in_single_precision() {
+fn a_killed_run_goes_on_to_the_same_bits_in_single_precision() {
     killed_and_resumed("resume-cpu32", &["--backend", "cpu", "--precision", "f32", "--threads", "1"]);
 }
 
 #[test]
-fn on_a_graphics_adapter() {
+fn a_killed_run_goes_on_to_the_same_bits_on_a_graphics_adapter() {
     if has_adapter() {
         killed_and_resumed("resume-gpu", &["--backend", "gpu"]);
     }
@@ -119,7 +119,7 @@ fn interrupted(sandbox: &Sandbox, scene: &str) {
 }
 
 #[test]
-fn another_place_or_scene_is_refused() {
+fn another_backend_or_scene_is_refused() {
     let sandbox = Sandbox::new("resume-elsewhere");
     interrupted(&sandbox, "s.toml");
     let series = std::fs::read(sandbox.path("parts/series.csv")).unwrap();

@@ -42,7 +42,7 @@ fn a_patch_has_the_exact_stress_and_both_descents_find_it() {
 }
 
 #[test]
-fn single_precision_and_the_gpu_find_it_too() {
+fn single_precision_and_the_gpu_find_the_exact_stress_of_a_patch() {
     let gpu = adapter().map(|_| Choice::Gpu(None));
     for choice in [Some(Choice::Cpu32), gpu].into_iter().flatten() {
         for method in ["fire", "kinetic_damping"] {

@@ -63,7 +63,7 @@ fn corrected_kernels_give_the_answer_and_keep_the_energy() {
 }
 
 #[test]
-fn leapfrog_serves_as_well() {
+fn leapfrog_gives_the_answer_and_keeps_the_energy() {
     let (error, drift) = errors(21, &["time.integrator=leapfrog"]);
     assert!(error < 2.7e-3 && drift < 5e-5, "{error} {drift}");
 }

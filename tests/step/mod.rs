@@ -2,5 +2,5 @@
 
 mod corrected_kernel;
 mod elastic;
-mod eulerian;
+pub mod eulerian;
 mod lagrangian;

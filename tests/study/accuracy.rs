@@ -1,4 +1,4 @@
-//! `lithosph study` from outside.
+//! `lithosph study accuracy` and `lithosph study recommend` from outside.
 
 use crate::common::sandbox::{Said, Sandbox, said, signal, until};
 
@@ -46,7 +46,7 @@ source = "nowhere"
 
 const FILE: &str = "out/study/bar-accuracy.csv";
 
-fn bar(name: &str) -> Sandbox {
+pub fn bar(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     sandbox.write("bar.toml", BAR);
     sandbox
@@ -129,7 +129,7 @@ fn a_file_of_another_study_is_refused() {
 }
 
 #[test]
-fn a_slip_is_refused_before_anything_runs() {
+fn slips_in_paths_values_and_names_are_refused_before_anything_runs() {
     let sandbox = bar("slip");
     let refuse = |more: &[&str], words: &[&str]| {
         let said = study(&sandbox, more);
@@ -171,48 +171,6 @@ fn an_interrupt_leaves_a_file_to_go_on_from() {
     assert_eq!(said.code, Some(130), "{said:?}");
     assert!(said.err.contains("interrupted with 1 of 2 runs in out/study/bar-accuracy.csv"), "{said:?}");
     assert_eq!(column(&text(&sandbox), &["duration", "status"]), [["0.5", "ok"]]);
-}
-
-#[test]
-fn a_scene_is_taken_apart() {
-    let sandbox = bar("ablate");
-    let ablate = |more: &[&str]| sandbox.lithosph(&[&["study", "ablate", "bar.toml"], more].concat());
-    let said = ablate(&["--error", "0"]);
-    assert!(said.code == Some(2) && said.err.contains("a number above 0") && !sandbox.exists("out"), "{said:?}");
-    let said = ablate(&["--error", "5%"]);
-    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
-    assert!(said.out.contains("lithosph run bar.toml --set ") && said.out.contains("Smallest model of bar"), "{said:?}");
-    let file = "out/study/bar-ablate.csv";
-    let first = std::fs::read_to_string(sandbox.path(file)).unwrap();
-    assert!(first.lines().nth(1).unwrap().starts_with("run,without,overrides,repeat,particles,"), "{first}");
-    assert_eq!(ablate(&["--error", "5%"]).out, said.out);
-    assert_eq!(std::fs::read_to_string(sandbox.path(file)).unwrap(), first);
-    let said = ablate(&["--set", "time.cfl=0.2"]);
-    assert!(said.code == Some(2) && said.err.contains("study of another scene"), "{said:?}");
-}
-
-#[test]
-fn a_scene_tells_what_it_pays_for() {
-    let sandbox = bar("cost");
-    let said = sandbox.lithosph(&["study", "cost", "bar.toml"]);
-    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{said:?}");
-    assert!(said.out.contains("Composed from its own parts alone, each scene has the same fields"), "{said:?}");
-    let text = std::fs::read_to_string(sandbox.path("out/study/cost.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    let cell = |name: &str| rows[1][rows[0].iter().position(|title| *title == name).unwrap()];
-    assert_eq!((cell("scene"), cell("particles"), cell("own_parts_suffice")), ("bar", "20", "true"));
-    assert!(cell("cpu_seconds_per_step").parse::<f64>().unwrap() > 0.0 && !cell("field_names").contains("smoothed_velocity"));
-    let more = sandbox.lithosph(&["study", "cost", "bar.toml", "--set", "formulation.xsph=0.5", "--show"]);
-    assert!(more.out.contains("smoothed_velocity: 1 x Particle") && more.out.contains("// smooth_velocity"), "{more:?}");
-    let nowhere = sandbox.lithosph(&["study", "cost"]);
-    assert!(nowhere.code == Some(2) && nowhere.err.contains("name scenes"), "{nowhere:?}");
-}
-
-#[test]
-fn limits_of_a_lattice_that_grows_are_refused_before_anything_is_written() {
-    let sandbox = bar("limits");
-    let said = sandbox.lithosph(&["study", "stability", "bar.toml", "--limits", "--set", "body.bar.relative_volume=1.05"]);
-    assert!(said.code == Some(2) && said.err.contains("grows at any step") && !sandbox.exists("out"), "{said:?}");
 }
 
 #[test]

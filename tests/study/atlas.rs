@@ -61,7 +61,7 @@ fn each_row_has_a_test_of_its_own() {
 }
 
 #[test]
-fn names_are_words_of_their_own() {
+fn names_are_words_and_come_once() {
     for (k, row) in ROWS.iter().enumerate() {
         assert!(row.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'), "{}", row.name);
         assert!(ROWS[..k].iter().all(|other| other.name != row.name), "{} comes twice", row.name);
@@ -110,7 +110,7 @@ fn an_interrupt_leaves_a_table_to_go_on_from() {
 
 /// The numbers in the table are judged anew: one that is not as stated ends with exit code 1.
 #[test]
-fn a_row_that_does_not_behave_is_told() {
+fn a_row_that_does_not_behave_ends_with_exit_code_1() {
     let sandbox = Sandbox::new("atlas-wrong");
     assert_eq!(sandbox.lithosph(&ROWS_ASKED_FOR[..3]).code, Some(0));
     let file = sandbox.path("out/study/atlas.csv");
@@ -130,7 +130,7 @@ fn a_row_that_does_not_behave_is_told() {
 }
 
 #[test]
-fn a_slip_is_refused_in_one_line() {
+fn a_misspelt_row_and_a_file_that_is_no_atlas_are_refused() {
     let sandbox = Sandbox::new("atlas-slip");
     let said = sandbox.lithosph(&["study", "atlas", "tensile_instabilty"]);
     assert_eq!((said.code, said.err.lines().count()), (Some(2), 1), "{said:?}");

@@ -1,6 +1,7 @@
 //! The step against linear theory: on a uniform, stressed lattice every run must grow at the rate that von
 //! Neumann's analysis of the same discrete equations gives, and a stable one must not grow.
 
+use super::accuracy::bar;
 use crate::common::sandbox::Sandbox;
 use crate::common::scene_file;
 use lithosph::backend::Choice;
@@ -399,4 +400,11 @@ fn a_study_goes_on_where_it_was_stopped() {
         Err(Stop::Refused(reason)) => assert!(reason.contains("--force"), "{reason}"),
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn limits_of_a_lattice_that_grows_are_refused_before_anything_is_written() {
+    let sandbox = bar("limits");
+    let said = sandbox.lithosph(&["study", "stability", "bar.toml", "--limits", "--set", "body.bar.relative_volume=1.05"]);
+    assert!(said.code == Some(2) && said.err.contains("grows at any step") && !sandbox.exists("out"), "{said:?}");
 }

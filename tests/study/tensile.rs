@@ -34,7 +34,7 @@ fn parts_leave_a_page_tables_and_pictures() {
 }
 
 #[test]
-fn a_slip_is_refused() {
+fn an_unknown_part_and_a_folder_that_cannot_be_made_are_refused() {
     let sandbox = Sandbox::new("tensile-slip");
     let said = study(&sandbox, &["edges"]);
     assert!(said.code == Some(2) && said.err.contains("edges") && !sandbox.exists("out"), "{said:?}");

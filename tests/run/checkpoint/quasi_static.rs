@@ -5,7 +5,7 @@ use crate::common::sandbox::{Sandbox, signal, until};
 use lithosph::output::vtkhdf;
 
 #[test]
-fn a_killed_search_goes_on() {
+fn a_killed_search_for_equilibrium_goes_on_to_the_same_bits() {
     let sandbox = Sandbox::new("resume-quasi-static");
     sandbox.write("patch.toml", &patches::patch(2));
     // Half way the metal yields: what it remembers goes on too.
