@@ -1,7 +1,7 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .NOTPARALLEL:
-.PHONY: help demo test browser verify bench setup
+.PHONY: help demo quick test browser verify bench setup
 
 # Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -15,6 +15,17 @@ demo: ## Build, let two rubber rings collide, and say where the pictures are
 	cargo build --release
 	cargo run --release --quiet -- run scenes/colliding_rings.toml --force
 	@echo "Pictures: out/colliding_rings/frames/*.png; for ParaView: out/colliding_rings/particles.vtkhdf"
+
+# Parts of names in tests/ that take seconds.
+FAST := cli:: contact::list conservation::no_particle material::laws material::maxwell mirror:: observable:: obstacle:: \
+    pass:: shaders:: is_good_with of_its_own step::eulerian step::lagrangian
+
+quick: ## While working: format, lints, unit tests, fast tests. Leaves out runs of scenes, studies, atlas, parity, and builds without HDF5
+	@.ci/setup build
+	cargo fmt --check
+	cargo clippy --all-targets --quiet -- -D warnings
+	cargo test --quiet --lib
+	cargo test --quiet --test tests -- $(FAST)
 
 test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	@.ci/setup test

@@ -2,6 +2,7 @@
 
 mod quasi_static;
 
+use crate::common::adapter;
 use crate::common::sandbox::{self, Said, Sandbox, signal, until};
 use lithosph::output::{csv, vtkhdf};
 use std::collections::BTreeMap;
@@ -86,12 +87,6 @@ fn killed_and_resumed(name: &str, place: &[&str]) {
     assert_eq!(std::fs::read_to_string(folder.join("summary.json")).unwrap(), summary);
 }
 
-fn has_adapter() -> bool {
-    let found = !lithosph::backend::device::list().is_empty();
-    assert!(found || std::env::var_os("LITHOSPH_NEED_GPU").is_none(), "LITHOSPH_NEED_GPU is set, and there is no adapter");
-    found
-}
-
 #[test]
 fn a_killed_run_goes_on_to_the_same_bits_on_the_processor() {
     killed_and_resumed("resume-cpu", &["--backend", "cpu"]);
@@ -104,7 +99,7 @@ fn a_killed_run_goes_on_to_the_same_bits_in_single_precision() {
 
 #[test]
 fn a_killed_run_goes_on_to_the_same_bits_on_a_graphics_adapter() {
-    if has_adapter() {
+    if adapter().is_some() {
         killed_and_resumed("resume-gpu", &["--backend", "gpu"]);
     }
 }
@@ -130,7 +125,7 @@ fn another_backend_or_scene_is_refused() {
         assert!(std::fs::read(sandbox.path("parts/series.csv")).unwrap() == series, "rows were lost");
     };
     refused(&["--backend", "cpu", "--precision", "f32"], "choose the same backend");
-    if has_adapter() {
+    if adapter().is_some() {
         refused(&["--backend", "gpu"], "choose the same backend");
     }
     let resolved = std::fs::read_to_string(sandbox.path("parts/run.toml")).unwrap();
