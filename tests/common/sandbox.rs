@@ -113,7 +113,8 @@ impl Sandbox {
         said(command.env("VK_DRIVER_FILES", &missing).env("VK_ICD_FILENAMES", &missing).spawn().unwrap())
     }
 
-    /// The same where no file may grow beyond a size, as on a disk that is full.
+    /// The same where no file may grow beyond a size, as on a disk that is full; it takes HDF5 to fill one.
+    #[cfg(feature = "hdf5")]
     pub fn on_full_disk(&self, kibibytes: u32, arguments: &[&str]) -> Said {
         let mut command = self.prepare(Command::new("bash"));
         let script = format!("trap '' XFSZ; ulimit -f {kibibytes}; exec \"$0\" \"$@\"");
