@@ -1,7 +1,7 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .NOTPARALLEL:
-.PHONY: help demo test browser verify bench setup
+.PHONY: help demo quick test browser verify bench setup
 
 # Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -16,13 +16,24 @@ demo: ## Build, let two rubber rings collide, and say where the pictures are
 	cargo run --release --quiet -- run scenes/colliding_rings.toml --force
 	@echo "Pictures: out/colliding_rings/frames/*.png; for ParaView: out/colliding_rings/particles.vtkhdf"
 
+# Parts of names in tests/ that take seconds.
+FAST := cli:: contact::list conservation::no_particle material::laws material::maxwell mirror:: observable:: obstacle:: \
+    pass:: shaders:: is_good_with of_its_own step::eulerian step::lagrangian
+
+quick: ## While working: format, lints, unit tests, fast tests. Leaves out runs of scenes, studies, atlas, parity, and builds without HDF5
+	@.ci/setup build
+	cargo fmt --check
+	cargo clippy --all-targets --quiet -- -D warnings
+	cargo test --quiet --lib
+	cargo test --quiet --test tests -- $(FAST)
+
 test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	@.ci/setup test
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
 	cargo clippy --release --all-targets --quiet --no-default-features -- -D warnings
 	@# Without HDF5 the program still has to run, not only to compile.
-	cargo test --release --no-default-features --test cli 2>&1 | tee target/test-without-hdf5.log
+	cargo test --release --no-default-features --test tests cli:: 2>&1 | tee target/test-without-hdf5.log
 	@status=0; cargo test --release --all-features --no-fail-fast 2>&1 | tee target/test.log || status=$$?; \
 	cargo run --release --quiet -- run scenes/colliding_rings.toml --backend cpu --set duration=100 --out target/vtk --force --quiet \
 	    && target/python/bin/python tests/vtk_reads_output.py target/vtk/particles.vtkhdf || status=1; \

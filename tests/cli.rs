@@ -1,8 +1,6 @@
 //! The command line from outside: exit codes, what is said, and what is left on the disk.
 
-mod cli_support;
-
-use cli_support::{SCENE, Said, Sandbox, said, signal, until};
+use crate::common::sandbox::{SCENE, Said, Sandbox, said, signal, until};
 use lithosph::output::csv;
 
 /// Exactly one line, with the program's name before it.
@@ -48,7 +46,7 @@ const VISCOSITY: &str = "viscosity = { alpha = 1 }";
 const END: &str = "[variant.slow]";
 
 #[test]
-fn words_and_types() {
+fn wrong_words_and_types_are_refused_at_their_line() {
     bad_scenes(
         "words",
         &[
@@ -68,7 +66,7 @@ fn words_and_types() {
 }
 
 #[test]
-fn numbers_out_of_range() {
+fn numbers_out_of_range_are_refused_at_their_line() {
     bad_scenes(
         "numbers",
         &[
@@ -89,7 +87,7 @@ fn numbers_out_of_range() {
 }
 
 #[test]
-fn shapes_and_materials() {
+fn impossible_shapes_and_materials_are_refused_at_their_line() {
     let block = format!("shape = {BLOCK}");
     bad_scenes(
         "shapes",
@@ -117,7 +115,7 @@ fn shapes_and_materials() {
 }
 
 #[test]
-fn boundaries_contacts_and_boxes() {
+fn impossible_boundaries_contacts_and_boxes_are_refused_at_their_line() {
     let with = |text: &str| format!("{text}\n\n{END}");
     let body = with("[[boundary]]\nselect = { body = \"lft\" }\nfixed = true");
     let none =
@@ -151,7 +149,7 @@ fn boundaries_contacts_and_boxes() {
 }
 
 #[test]
-fn observables_and_expectations() {
+fn impossible_observables_and_expectations_are_refused_at_their_line() {
     let observe = |text: &str| format!("[observe.new]\n{text}\n\n{END}");
     let expect = |text: &str| format!("[expect.kinetic]\n{text}\n\n{END}");
     let indent = |kind: &str, keys: &str| observe(&format!("kind = \"{kind}\"\nof = \"kinetic\"\nover = \"kinetic\"\n{keys}"));
@@ -188,7 +186,7 @@ fn observables_and_expectations() {
 }
 
 #[test]
-fn bad_arguments() {
+fn bad_arguments_are_refused_and_leave_no_folder() {
     let sandbox = Sandbox::new("arguments");
     let refuse = |arguments: &[&str], words: &[&str]| refused(&sandbox, &sandbox.lithosph(arguments), words);
     refuse(&["run", "no.toml"], &["no.toml: no such file"]);
@@ -247,7 +245,7 @@ fn a_good_run_is_quiet_in_a_pipe_and_leaves_every_file() {
 }
 
 #[test]
-fn what_there_is() {
+fn lists_devices_and_help_are_told_even_without_a_driver() {
     let sandbox = Sandbox::new("lists");
     let said = sandbox.lithosph(&["list"]);
     assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
@@ -432,7 +430,7 @@ mod stored {
     }
 
     #[test]
-    fn stored_steps_are_painted() {
+    fn stored_steps_are_painted_and_what_is_not_stored_is_refused() {
         let sandbox = Sandbox::new("render");
         assert_eq!(sandbox.lithosph(&["run", "s.toml", "--backend", "cpu", "--out", "done"]).code, Some(0));
         let refuse = |arguments: &[&str], words: &[&str]| {

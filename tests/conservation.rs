@@ -1,39 +1,29 @@
 //! What no formulation may lose: momentum, mass, and the same answer twice. Every scene without walls is
 //! run for a short while; what its physics gives is the business of `scenes.rs`.
 
+use crate::common::{scene_file, scene_files};
 use lithosph::backend::{Choice, Columns, open};
 use lithosph::method::Gradient;
 use lithosph::observable::Moment;
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
-use std::path::{Path, PathBuf};
 
 const FIELDS: [Field; 4] = [Field::Number, Field::ReferenceVolume, Field::Displacement, Field::Velocity];
 
 /// Time a run is given, in h/c of its first body: past the first contact of every scene.
 const CROSSINGS: f64 = 30.0;
 
-fn files() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let entries = std::fs::read_dir(folder).expect("there is a folder of scenes");
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    files.retain(|path| path.extension().is_some_and(|e| e == "toml"));
-    files.sort();
-    files
-}
-
 /// Scenes on which nothing outside acts.
 fn free_scenes() -> Vec<Scene> {
-    let scenes = files().into_iter().map(|path| Scene::open(&path, None, &[]).expect("the scene is good"));
+    let scenes = scene_files().into_iter().map(|path| Scene::open(&path, None, &[]).expect("the scene is good"));
     let walls = |s: &Scene| !(s.file.boundary.is_empty() && s.file.symmetry.is_empty() && s.obstacles.is_empty());
     let free = |s: &Scene| !walls(s) && s.file.body_force.is_none();
     scenes.filter(free).collect()
 }
 
 fn scene(name: &str, overrides: &[&str]) -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
     let overrides: Vec<String> = overrides.iter().map(|o| (*o).to_string()).collect();
-    Scene::open(&path, None, &overrides).expect("the scene is good")
+    Scene::open(&scene_file(name), None, &overrides).expect("the scene is good")
 }
 
 /// State after a short run; none where there is no such backend.
@@ -103,7 +93,7 @@ fn momentum_is_kept_to_rounding_on_a_gpu() {
 #[test]
 fn the_adjoint_form_keeps_angular_momentum_and_the_plain_one_does_not() {
     let drift = |gradient: &str| {
-        let scene = scene("rotating_disc.toml", &[&format!("formulation.gradient={gradient}")]);
+        let scene = scene("rotating_disc", &[&format!("formulation.gradient={gradient}")]);
         let columns = short_run(&scene, &Choice::Cpu).expect("there is a CPU");
         let moment = Moment::new(&scene, 0.0, 0, &columns);
         let (mut change, mut scale) = (0.0, 0.0);
@@ -137,7 +127,7 @@ fn no_particle_is_lost_or_changes_its_mass() {
 
 #[test]
 fn repeated_runs_give_the_same_bits_on_any_number_of_threads() {
-    let scene = scene("colliding_rings.toml", &[]);
+    let scene = scene("colliding_rings", &[]);
     let bits = |threads: usize| -> Vec<u64> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads");
         let columns = pool.install(|| short_run(&scene, &Choice::Cpu)).expect("there is a CPU");

@@ -1,8 +1,6 @@
 //! Distances to rigid obstacles in the shader against their twin, and the structure against its mirror.
 
-mod common;
-
-use common::{Random, adapter};
+use crate::common::{Random, adapter};
 use glam::DVec3;
 use lithosph::backend::shader::{Choice, compose_text, offsets};
 use lithosph::obstacle::{BERKOVICH, ObstacleKind, distance};
@@ -116,7 +114,7 @@ fn agree<W: Space<Real = f64>, N: Space<Real = f32>>(adapter: &wgpu::Adapter) {
         let exact: Vec<[f64; 4]> = places.iter().map(|&place| twin::<W>(&widened(obstacle), place)).collect();
         let device = worst(found.iter().map(|numbers| numbers.map(f64::from)), &exact);
         let single = worst(places.iter().map(|&place| twin::<N>(obstacle, place)), &exact);
-        // The rule of tests/parity: four times the twin's error in f32, two ulp of the largest number at least.
+        // The rule of tests/backend/parity: four times the twin's error in f32, two ulp of the largest number at least.
         let bound = (4.0 * single).max(2.0 * 3.5 * f64::from(f32::EPSILON));
         println!("{}D {}: device {device:e}, twin {single:e}", N::DIMENSION, ObstacleKind::ALL[obstacle.kind as usize].name());
         assert!(

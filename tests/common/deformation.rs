@@ -1,5 +1,4 @@
 //! Bodies and random deformations that the tests of the laws share.
-#![allow(dead_code)]
 
 use super::Random;
 use lithosph::material::{self, Law};

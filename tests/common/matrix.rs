@@ -1,5 +1,4 @@
 //! Matrices of space as plain rows, for answers that share nothing with the crate's own tensors.
-#![allow(dead_code)]
 
 pub type M = [[f64; 3]; 3];
 

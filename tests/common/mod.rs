@@ -1,9 +1,9 @@
-//! What several test files share: random numbers, the device, and runs of a scene's text.
-// Each test file is a crate of its own and uses its own part.
-#![allow(dead_code)]
+//! What several tests share: random numbers, the device, runs of a scene's text, and folders to run the program in.
 
 pub mod deformation;
 pub mod matrix;
+pub mod patches;
+pub mod sandbox;
 
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Columns};
@@ -11,6 +11,7 @@ use lithosph::particles::Field;
 use lithosph::rows::Clock;
 use lithosph::scene::Scene;
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// A seeded sequence of numbers: SplitMix64 of Steele, Lea & Flood 2014.
 pub struct Random(pub u64);
@@ -49,6 +50,24 @@ pub fn adapter() -> Option<wgpu::Adapter> {
     // Past the test harness, which hides what a passing test prints.
     let _ = writeln!(std::io::stderr(), "no graphics adapter: a test of the GPU path is left out");
     None
+}
+
+pub fn scene_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+}
+
+/// A scene by its stem.
+pub fn scene_file(name: &str) -> PathBuf {
+    scene_folder().join(name).with_extension("toml")
+}
+
+/// All of them, in order of their names.
+pub fn scene_files() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(scene_folder()).expect("there is a folder of scenes");
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    files
 }
 
 /// A scene from text, which must be sound.

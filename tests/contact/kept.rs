@@ -1,7 +1,7 @@
 //! Laws with an energy keep momentum, angular momentum and energy.
 
+use super::discs::{LAGRANGIAN, WITH_ENERGY, begun, collide, discs};
 use crate::common::Random;
-use crate::discs::{LAGRANGIAN, WITH_ENERGY, begun, collide, discs};
 use lithosph::pass::{Pass, Stage};
 use lithosph::state::State;
 use lithosph::tensor::Plane;
@@ -26,7 +26,7 @@ fn laws_with_an_energy_keep_all_in_an_oblique_collision() {
 /// In the Eulerian formulation the adjoint gradients keep angular momentum; its material has no energy to the last
 /// digit.
 #[test]
-fn and_so_they_do_in_the_eulerian_formulation() {
+fn laws_with_an_energy_keep_all_in_the_eulerian_formulation_too() {
     for (law, gap) in WITH_ENERGY {
         let scene = discs(&format!("kernel = 0\n{law}"), "gradient = 'adjoint'", [gap, 5.0], 0.02);
         let change = collide(&scene, 400.0);

@@ -1,6 +1,6 @@
 //! Contact through the kernel sticks; a potential lets go.
 
-use crate::discs::{LAGRANGIAN, collide, discs_of};
+use super::discs::{LAGRANGIAN, collide, discs_of};
 
 /// Speed of longitudinal waves.
 const SOUND: f64 = 1.1602;

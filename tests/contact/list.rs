@@ -1,7 +1,7 @@
 //! One law for each pair of bodies, several in a scene; and what is refused.
 
+use super::discs::{LAGRANGIAN, WITH_ENERGY, begun};
 use crate::common::parse;
-use crate::discs::{LAGRANGIAN, WITH_ENERGY, begun};
 use lithosph::contact::Potential;
 use lithosph::scene::Scene;
 use lithosph::tensor::Plane;

@@ -1,7 +1,7 @@
 //! Fuller's zones: surfaces, corners and normals of a block; friction; and what the method loses.
 
+use super::discs::{LAGRANGIAN, begun, collide, discs};
 use crate::common::parse;
-use crate::discs::{LAGRANGIAN, begun, collide, discs};
 use lithosph::contact::zones::{CORNER, SURFACE};
 use lithosph::pass::{Pass, Stage};
 use lithosph::scene::Scene;

@@ -1,5 +1,5 @@
 //! The machinery: with toy shaders in the passes' place, then with the true ones against their twins. Each
-//! pass alone is compared in tests/parity.
+//! pass alone is compared in tests/backend/parity.
 
 use super::*;
 use crate::backend::cpu::Cpu;

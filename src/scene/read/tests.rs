@@ -82,7 +82,7 @@ fn assert_complaints(cases: &[(&str, &str, &str)]) {
 }
 
 #[test]
-fn text_that_is_no_toml() {
+fn text_that_is_no_toml_is_refused_at_its_line() {
     let quotes = "4: not valid TOML: after `=` comes one value, text in quotes";
     assert_complaints(&[
         ("duration = 2", "duration = ", quotes),
@@ -95,7 +95,7 @@ fn text_that_is_no_toml() {
 }
 
 #[test]
-fn unknown_keys_and_words() {
+fn unknown_keys_and_words_are_refused_with_the_nearest() {
     assert_complaints(&[
         ("duration = 2", "durration = 2", "4: unknown key `durration`, did you mean `duration`?"),
         ("smoothing =", "smothing =", "21: unknown key `smothing`, did you mean `smoothing`?"),
@@ -121,7 +121,7 @@ fn unknown_keys_and_words() {
 }
 
 #[test]
-fn missing_keys() {
+fn missing_keys_are_named() {
     assert_complaints(&[
         ("duration = 2", "", "1: missing key `duration` at the top of the scene"),
         (", outer = 35", "", "8: missing key `outer` in `body.0.shape.ring`"),
@@ -131,7 +131,7 @@ fn missing_keys() {
 }
 
 #[test]
-fn wrong_types() {
+fn wrong_types_are_refused() {
     let motion = "10: `body.0.motion` must be a table such as `{ wave = { amplitude = [1], wave_vector = [2] } }`, \
                   found a string";
     let velocity = "28: `boundary.0.velocity` must be a list of numbers and \"free\", one for each axis";
@@ -162,7 +162,7 @@ fn wrong_types() {
 }
 
 #[test]
-fn what_serde_would_let_pass() {
+fn what_serde_would_let_pass_is_refused() {
     let stress = "10: `body.0.deviatoric_stress` must be a list of 6 numbers, found a list of 7";
     assert_complaints(&[
         ("velocity = [1, 0]", "deviatoric_stress = [1, 2, 3, 4, 5, 6, 7]", stress),
@@ -174,7 +174,7 @@ fn what_serde_would_let_pass() {
 }
 
 #[test]
-fn bad_overrides() {
+fn bad_overrides_are_refused() {
     let cases = [
         ("velocity", "velocity: must be `path=value`, found no `=`"),
         ("a..b=3", "a..b: must be a path of keys such as `formulation.xsph`"),
@@ -242,7 +242,7 @@ fn none_removes_a_key() {
 }
 
 #[test]
-fn bad_variants() {
+fn bad_variants_are_refused() {
     let choose = |name| read_text(SCENE, "s.toml", Some(name), &[]).err().unwrap_or_default();
     assert_eq!(choose("plan"), "s.toml: unknown variant `plan`, did you mean `plain`?");
     assert_eq!(choose("zebra"), "s.toml: unknown variant `zebra`, expected `other` or `plain`");
@@ -270,7 +270,7 @@ fn the_resolved_text_reads_back() {
 }
 
 #[test]
-fn places() {
+fn a_path_has_the_line_of_its_key() {
     let source = set(&[]).unwrap().source;
     assert_eq!(source.place(&[]), "s.toml:1");
     assert_eq!(source.place(&["body"]), "s.toml:6");
@@ -281,7 +281,7 @@ fn places() {
 }
 
 #[test]
-fn files() {
+fn files_are_read_and_what_is_none_is_refused() {
     let folder = std::env::temp_dir().join(format!("lithosph-read-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("scene.toml");

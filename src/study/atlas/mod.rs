@@ -1,5 +1,5 @@
 //! The atlas of known failures: each row runs the plain method, which fails, and its remedy, which survives, and tells
-//! them apart by one number. `lithosph study atlas` makes the page; `tests/atlas.rs` holds every row to what it states.
+//! them apart by one number. `lithosph study atlas` makes the page; `tests/study/atlas.rs` holds every row to what it states.
 //!
 //! A row is a scene of `scenes/` with changes, or a scene beside the row, and a line in [`rows::ROWS`]. A run leaves its
 //! series and particles in a folder of its own, from which page and numbers can be made again, so that the same command

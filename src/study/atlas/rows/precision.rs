@@ -16,7 +16,7 @@ pub static STAGNATION: Row = Row {
     name: "stagnation_in_f32",
     failure: "In f32 a small change added to a large number is rounded away: a block that a small force brakes never slows \
               down, and a slow drift far from the start never moves. Sums that carry what they dropped find all of it.",
-    source: "Kahan 1965; tests/precision.rs shows the same of positions",
+    source: "Kahan 1965; tests/backend/precision.rs shows the same of positions",
     plain: Side::new("f32, plain sums", BRAKED).machine(Machine::SingleBare),
     remedy: Side::new("f32, compensated sums", BRAKED).machine(Machine::Single),
     measure: Measure { about: "braking that is missed, over all of it", of: braking_missed },

@@ -1,0 +1,7 @@
+//! What the discrete operators must do exactly.
+
+pub mod lagrangian;
+mod shape_block;
+mod shape_functions;
+mod strain_rate;
+mod stress;
