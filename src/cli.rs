@@ -343,9 +343,15 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
     for kernel in smoothing::Smoothing::ALL {
         say(&format!("  {:<24} {}", kernel.word(), kernel.about()));
     }
-    say("material laws");
-    for law in material::Law::ALL {
-        say(&format!("  {:<24} {}", law.word(), law.about()));
+    for role in material::Role::ALL {
+        say(&format!("material laws: {}", role.word()));
+        for law in material::Law::of_role(role) {
+            say(&format!("  {:<24} {}", law.word(), law.about()));
+            for number in law.declaration().numbers {
+                let default = number.default.map_or_else(String::new, |value| format!("; {value} unless given"));
+                say(&format!("    {:<22} {}{default}", number.key, number.about));
+            }
+        }
     }
     say("contact potentials");
     for potential in contact::Potential::ALL {

@@ -4,7 +4,7 @@
 
 use crate::contact;
 use crate::contact::zones;
-use crate::material::Law;
+use crate::material::{Law, Role};
 use crate::smoothing::Smoothing;
 use serde::{Deserialize, Serialize};
 
@@ -200,7 +200,7 @@ impl Default for Method {
             dimension: 2,
             formulation: Formulation::Eulerian,
             corrected_kernel: None,
-            laws: vec![Law::Elastic],
+            laws: vec![Law::Linear, Law::Elastic],
             smoothing: Smoothing::CubicSpline,
             integrator: Integrator::Leapfrog,
             quasi_static: None,
@@ -262,6 +262,7 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("listed_again", |m| m.listed_again()),
     ("memory", |m| m.memory()),
     ("plastic", |m| m.plastic()),
+    ("heated", |m| m.heated()),
     ("quasi_static", |m| m.quasi_static.is_some()),
     ("shear", |m| m.eulerian() && m.shear),
     ("many_bodies", |m| m.many_bodies),
@@ -316,9 +317,13 @@ impl Method {
     pub fn memory(&self) -> bool {
         self.finite_strain() && self.laws.iter().any(|law| law.has_memory())
     }
+    /// Particles have a temperature.
+    pub fn heated(&self) -> bool {
+        self.laws.iter().any(|law| law.role() == Role::Heat)
+    }
     /// Some law yields.
     pub fn plastic(&self) -> bool {
-        self.laws.contains(&Law::J2)
+        self.laws.iter().any(|law| law.yields())
     }
     /// Words of [`FLAGS`] whose condition holds, in their order.
     pub fn flags(&self) -> Vec<&'static str> {

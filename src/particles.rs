@@ -166,6 +166,7 @@ fields! {
     displacement_gradient: DisplacementGradient, Mat, NONE, true, "H = F - 1: derivative of the displacement by the reference position";
     inelastic_strain: InelasticStrain, Sym, NONE, true, "C_i - 1 of a law that remembers: its inelastic Cauchy-Green tensor less the unit tensor";
     equivalent_plastic_strain: EquivalentPlasticStrain, Real, NONE, true, "integral of the plastic strain rate sqrt(2/3 d_p:d_p)";
+    temperature: Temperature, Real, NONE, true, "temperature, in the unit of the material's numbers";
     equilibrium_inelastic_strain: EquilibriumInelasticStrain, Sym, NONE, true, "inelastic strain in equilibrium at the load step before";
     equilibrium_plastic_strain: EquilibriumPlasticStrain, Real, NONE, true, "equivalent plastic strain in equilibrium at the load step before";
     internal_energy: InternalEnergy, Real, SPECIFIC_ENERGY, true, "internal energy per mass";

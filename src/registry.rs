@@ -98,6 +98,14 @@ impl Registry {
         })
     }
 
+    /// A law by its word.
+    pub fn law(&self, word: &str) -> Option<Law> {
+        self.parts.iter().find_map(|part| match part {
+            Part::Law(law) if law.word() == word => Some(*law),
+            _ => None,
+        })
+    }
+
     /// Fields that the method's passes read or write.
     ///
     /// # Errors

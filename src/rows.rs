@@ -3,6 +3,7 @@
 //! Lengths, times and masses are in the scene's own units.
 
 use crate::contact;
+use crate::material::NUMBERS;
 use crate::particles::Counts;
 use crate::tensor::Real;
 
@@ -96,24 +97,24 @@ impl<R> Params<R> {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Body<R> {
-    /// Number of the material's law.
-    pub law: u32,
-    pub padding: u32,
+    /// Its law for each role, as [`crate::material::Law::number`] gives it: a law that is whole, or those of the roles, and 0 for none.
+    pub whole: u32,
+    pub pressure: u32,
+    pub strength: u32,
+    pub heat: u32,
     /// Density when unstressed.
     pub density: R,
     pub bulk_modulus: R,
     pub shear_modulus: R,
     pub youngs_modulus: R,
-    /// Rate at which a Maxwell body relaxes, shear modulus over viscosity; 0 for all others.
-    pub relaxation: R,
-    /// Yield stress of a J2 body before it hardens; 0 for all others.
+    /// What its strength bears before anything has flowed; 0 where it does not give way.
     pub yield_stress: R,
-    /// What hardening adds to it: coefficient times the equivalent plastic strain to the power of the exponent.
-    pub hardening: R,
-    pub hardening_exponent: R,
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,
+    pub padding: R,
+    /// Numbers of its laws, those of a role from [`crate::material::Role::first`] on in the order of their declaration.
+    pub numbers: [R; NUMBERS],
 }
 
 /// How two bodies touch. Twin: `ContactPair` in `shaders/lib/params.wgsl`.

@@ -384,6 +384,7 @@ pub fn needed_fields(method: &Method) -> Vec<Field> {
         (lagrangian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
         (method.memory(), &[InelasticStrain]),
         (method.plastic(), &[EquivalentPlasticStrain]),
+        (method.heated(), &[Temperature]),
         (method.plastic() && method.quasi_static.is_some(), &[EquilibriumInelasticStrain, EquilibriumPlasticStrain]),
         (method.many_bodies, &[Body]),
         (method.constraints, &[Field::Constraint]),

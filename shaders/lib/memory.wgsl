@@ -1,8 +1,9 @@
-// What a law remembers: the inelastic strain C_i - 1, and the equivalent plastic strain. Twin: Memory in
-// src/material/mod.rs
+// What a particle of finite strain remembers: the inelastic strain C_i - 1, the equivalent plastic strain and the
+// temperature. Twin: Memory in src/material/mod.rs
 #import tensor
 
 struct Memory {
     strain: Sym,
     plastic: real,
+    temperature: real,
 }

@@ -1,4 +1,4 @@
-// The tables that every run has, laid out as in src/state.rs; a test compares the offsets.
+// The tables that every run has, laid out as in src/rows.rs; a test compares the offsets.
 #import tensor
 
 struct Params {
@@ -56,18 +56,19 @@ struct Params {
 }
 
 struct Body {
-    law: u32,
-    padding: u32,
+    whole: u32,
+    pressure: u32,
+    strength: u32,
+    heat: u32,
     density: real,
     bulk_modulus: real,
     shear_modulus: real,
     youngs_modulus: real,
-    relaxation: real,
     yield_stress: real,
-    hardening: real,
-    hardening_exponent: real,
     sound_speed: real,
     smoothing_length: real,
+    padding: real,
+    numbers: array<real, 32>,
 }
 
 struct ContactPair {

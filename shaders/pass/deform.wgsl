@@ -23,6 +23,9 @@
 @group(0) @binding(_) var<storage, read> equilibrium_plastic_strain: array<real>;
 #endif
 #endif
+#if heated
+@group(0) @binding(_) var<storage, read_write> temperature: array<real>;
+#endif
 #if dissipated_energy
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 #endif
@@ -95,6 +98,9 @@ fn relax_to(a: u32, gradient: Mat) {
 #if plastic
     equivalent_plastic_strain[a] = memory.plastic;
 #endif
+#if heated
+    temperature[a] = memory.temperature;
+#endif
 #if dissipated_energy
     dissipated_energy[a] += dissipated(own, displacement_gradient[a], old.strain, gradient, memory.strain) * (1.0 / own.density);
 #endif
@@ -103,14 +109,19 @@ fn relax_to(a: u32, gradient: Mat) {
 // What the law remembers from before the step. In a descent to equilibrium, which is no motion in time, every step
 // begins at the last equilibrium.
 fn remembered(a: u32) -> Memory {
+#if heated
+    let warm = temperature[a];
+#else
+    let warm: real = 0.0;
+#endif
 #if plastic
 #if quasi_static
-    return Memory(equilibrium_inelastic_strain[a], equilibrium_plastic_strain[a]);
+    return Memory(equilibrium_inelastic_strain[a], equilibrium_plastic_strain[a], warm);
 #else
-    return Memory(inelastic_strain[a], equivalent_plastic_strain[a]);
+    return Memory(inelastic_strain[a], equivalent_plastic_strain[a], warm);
 #endif
 #else
-    return Memory(inelastic_strain[a], 0.0);
+    return Memory(inelastic_strain[a], 0.0, warm);
 #endif
 }
 #endif

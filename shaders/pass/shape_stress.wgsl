@@ -25,7 +25,7 @@ fn main(invocation: Invocation) {
     let own = body_of(a);
     let gradient = displacement_gradient[a];
 #if memory
-    let memory = relax(own, gradient, Memory(inelastic_strain[a], 0.0), clock.step).strain;
+    let memory = relax(own, gradient, Memory(inelastic_strain[a], 0.0, 0.0), clock.step).strain;
     inelastic_strain[a] = memory;
     let stress = first_piola(own, gradient, memory);
 #else

@@ -2,7 +2,7 @@
 // stress R. Twin: src/pass/specific_stress.rs
 #import invocation
 #import body
-#import elastic
+#import pressures
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
@@ -30,7 +30,7 @@ fn main(invocation: Invocation) {
     }
     let own = body_of(a);
     let strain = volumetric_strain[a];
-    let pressure_a = pressure(own.bulk_modulus, strain);
+    let pressure_a = -kirchhoff(own, strain) / (1.0 + strain);
     let stress_a = stress(a, pressure_a);
     // 1/rho^2
     let specific_volume = 1.0 / (own.density / (1.0 + strain));

@@ -6,7 +6,7 @@
 #import params
 #if shear
 #import body
-#import elastic
+#import deviatoric_rate
 #endif
 #if plastic
 #import radial_return
@@ -21,13 +21,14 @@
 @group(0) @binding(_) var<storage, read_write> volumetric_strain: array<real>;
 #else
 #if plastic
-#if dissipated_energy
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
-#endif
 #endif
 #endif
 #if plastic
 @group(0) @binding(_) var<storage, read_write> equivalent_plastic_strain: array<real>;
+#if heated
+@group(0) @binding(_) var<storage, read_write> temperature: array<real>;
+#endif
 #if dissipated_energy
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 #endif
@@ -60,11 +61,19 @@ fn main(invocation: Invocation) {
 // Returns stress to the yield surface.
 fn yield_to(a: u32) {
     let own = body_of(a);
-    let result = yielded(own, deviatoric_stress[a], equivalent_plastic_strain[a]);
+#if heated
+    let warm = temperature[a];
+#else
+    let warm: real = 0.0;
+#endif
+    let result = yielded(own, deviatoric_stress[a], equivalent_plastic_strain[a], warm, 1.0 + volumetric_strain[a], clock.step);
     deviatoric_stress[a] = result.deviator;
     equivalent_plastic_strain[a] += result.growth;
+#if heated
+    temperature[a] = warm + rise(own, result.work);
+#endif
 #if dissipated_energy
-    dissipated_energy[a] += result.work * ((1.0 + volumetric_strain[a]) / own.density);
+    dissipated_energy[a] += result.work * (1.0 / own.density);
 #endif
 }
 #endif

@@ -4,7 +4,7 @@
 #import params
 #if shear
 #import body
-#import elastic
+#import deviatoric_rate
 #endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;

@@ -30,12 +30,12 @@ macro_rules! library {
 
 library! {
     lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
-        descent, displacement_difference, facet, facet_lever, facet_pair, facet_touched, half_kick, hourglass_stiffness, inverse, invocation,
-        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, own_neighbor, pair, pair_velocity, params, real,
+        descent, deviatoric_rate, displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow,
+        half_kick, hourglass_stiffness, inelastic, inverse, invocation,
+        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, radial_return, real,
         separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
-        unbalanced, visit_cells, volume;
+        unbalanced, visit_cells, volume, volumetric_stress, yielding;
     contact: zones;
-    material: elastic, hardening, j2, maxwell, neo_hookean, radial_return, st_venant_kirchhoff, volumetric_stress;
 }
 
 /// What decides the text of a shader.
@@ -157,9 +157,13 @@ impl Composer<'_> {
             "smoothing" => return Some((import.into(), self.choice.smoothing.to_string())),
             "potential" => return Some((import.into(), contacts::text(self.choice.potentials))),
             "laws" => return Some((import.into(), laws::text(self.choice.laws))),
+            "pressures" | "strengths" | "heats" => return Some((import.into(), laws::over_role(import, self.choice.laws)?)),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),
         };
+        if let Some(law) = self.registry.law(&stem) {
+            return Some((stem, laws::text_of(law)));
+        }
         let file = self.registry.file(&stem)?;
         Some((stem, file.text.to_string()))
     }

@@ -1,118 +1,198 @@
-//! What a material answers to deformation: one file a law, and here the list of them.
+//! What a material answers to deformation: one file a law, and here the list of them by their roles.
 //!
-//! In the Eulerian formulation: the linear equation of state with the bulk modulus, and the hypoelastic deviator.
-//! In the Total Lagrangian: first Piola-Kirchhoff stress from H = F - 1, written for small H in f32.
-//! Twin: shaders/material/
+//! A material has a law that is whole by itself, or a pressure and, if it resists a change of shape, a strength, and if
+//! its strength asks for it, a heat. In the Eulerian formulation stress comes from rates: the mean stress from the
+//! pressure, the deviator hypoelastic. In the Total Lagrangian it is the first Piola-Kirchhoff stress of H = F - 1,
+//! written for small H in f32. Where a strength gives way, [`yielding`] finds how far. Twin: shaders/material/
+//!
+//! A new law is its pair of files, `src/material/x.rs` and `shaders/material/x.wgsl`, and its word in the list below.
 
-pub mod hardening;
-pub mod j2;
-pub mod maxwell;
-pub mod neo_hookean;
-pub mod st_venant_kirchhoff;
+pub mod inelastic;
+pub mod law;
 pub mod strain;
+pub mod yielding;
+
+pub use law::{Declaration, NUMBERS, Number, Range, Reads, Role};
 
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
-use serde::{Deserialize, Serialize};
 
-/// Names the laws; the number is what [`Body::law`] holds.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Law {
-    /// Linear equation of state and hypoelastic deviator: Eulerian only.
-    #[default]
-    Elastic,
-    /// Linear equation of state alone: Eulerian only.
-    Fluid,
-    /// Stress linear in Green's strain.
-    StVenantKirchhoff,
-    /// Deviator of Simo, volumetric part of Hartmann & Neff 2003: Shutov & Klyuchantsev 2019 (11), (12).
-    NeoHookean,
-    /// Maxwell body of Simo & Miehe 1992: Shutov & Klyuchantsev 2019 (14) to (16).
-    Maxwell,
-    /// Metal that flows where the Mises stress reaches the yield stress.
-    J2,
-}
+macro_rules! laws {
+    (
+        pressure: $($pressure:ident $Pressure:ident),*;
+        strength: $($strength:ident $Strength:ident),*;
+        heat: $($heat:ident $Heat:ident),*;
+        whole: $($whole:ident $Whole:ident),*;
+    ) => {
+        $(pub mod $pressure;)* $(pub mod $strength;)* $(pub mod $heat;)* $(pub mod $whole;)*
 
-/// What a law remembers: the inelastic strain C_i - 1, and the equivalent plastic strain.
-pub type Memory<S> = (<S as Space>::Sym, <S as Space>::Real);
+        /// Names the laws; one more than its number is what a body holds for a role, and 0 is none.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Law { $($Pressure,)* $($Strength,)* $($Heat,)* $($Whole,)* }
 
-impl Law {
-    pub const ALL: &'static [Law] = &[Law::Elastic, Law::Fluid, Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
-    pub fn about(self) -> &'static str {
-        match self {
-            Law::Elastic => "linear equation of state and hypoelastic deviator, Eulerian: the default",
-            Law::Fluid => "linear equation of state alone, Eulerian",
-            Law::StVenantKirchhoff => "stress linear in Green's strain: large rotations, small strains",
-            Law::NeoHookean => "neo-Hookean deviator, volumetric part of Hartmann & Neff: large strains",
-            Law::Maxwell => "finite viscoelasticity of Simo & Miehe: neo-Hookean, and relaxes by `viscosity`",
-            Law::J2 => {
-                "metal plasticity: flows where the Mises stress reaches `yield_stress`, which may harden; in both formulations"
+        impl Law {
+            pub const ALL: &'static [Law] =
+                &[$(Law::$Pressure,)* $(Law::$Strength,)* $(Law::$Heat,)* $(Law::$Whole,)*];
+            pub fn declaration(self) -> &'static Declaration {
+                match self {
+                    $(Law::$Pressure => &$pressure::LAW,)* $(Law::$Strength => &$strength::LAW,)*
+                    $(Law::$Heat => &$heat::LAW,)* $(Law::$Whole => &$whole::LAW,)*
+                }
             }
         }
-    }
-    /// Gives stress from the deformation gradient.
-    pub fn is_finite_strain(self) -> bool {
-        !matches!(self, Law::Elastic | Law::Fluid)
-    }
-    /// Gives stress from rates.
-    pub fn is_hypoelastic(self) -> bool {
-        matches!(self, Law::Elastic | Law::Fluid | Law::J2)
-    }
-    /// Stress depends on more than the deformation.
-    pub fn has_memory(self) -> bool {
-        matches!(self, Law::Maxwell | Law::J2)
+
+        /// Mean Kirchhoff stress -J p of a material made of roles, from J - 1.
+        #[inline(always)]
+        pub fn kirchhoff<R: Real>(body: &Body<R>, volume_change: R) -> R {
+            match body.pressure {
+                $(number if number == Law::$Pressure.number() => $pressure::kirchhoff(body, volume_change),)*
+                _ => R::of(0.0),
+            }
+        }
+
+        /// Energy of a change of volume per reference volume, of such a material.
+        pub fn stored_in_volume<R: Real>(body: &Body<R>, volume_change: R) -> R {
+            match body.pressure {
+                $(number if number == Law::$Pressure.number() => $pressure::stored(body, volume_change),)*
+                _ => R::of(0.0),
+            }
+        }
+
+        /// What a strength bears at a point.
+        #[inline(always)]
+        pub fn flow<R: Real>(body: &Body<R>, at: &Point<R>) -> Flow<R> {
+            match body.strength {
+                $(number if number == Law::$Strength.number() => $strength::flow(body, at),)*
+                _ => Flow { stress: R::of(0.0), by_strain: R::of(0.0), by_rate: R::of(0.0) },
+            }
+        }
+
+        /// By how much plastic work, per reference volume, raises the temperature.
+        #[inline(always)]
+        pub fn rise<R: Real>(body: &Body<R>, work: R) -> R {
+            match body.heat {
+                $(number if number == Law::$Heat.number() => $heat::rise(body, work),)*
+                _ => R::of(0.0),
+            }
+        }
+    };
+}
+
+laws! {
+    pressure: linear Linear, hartmann_neff HartmannNeff;
+    strength: elastic Elastic, j2 J2;
+    heat: isothermal Isothermal, adiabatic Adiabatic;
+    whole: st_venant_kirchhoff StVenantKirchhoff, neo_hookean NeoHookean, maxwell Maxwell;
+}
+
+impl Law {
+    /// What a body holds for a role that this law fills.
+    pub const fn number(self) -> u32 {
+        self as u32 + 1
     }
     /// Word in scenes, and stem of the law's files.
     pub fn word(self) -> &'static str {
-        match self {
-            Law::Elastic => "elastic",
-            Law::Fluid => "fluid",
-            Law::StVenantKirchhoff => "st_venant_kirchhoff",
-            Law::NeoHookean => "neo_hookean",
-            Law::Maxwell => "maxwell",
-            Law::J2 => "j2",
-        }
+        self.declaration().word
+    }
+    pub fn role(self) -> Role {
+        self.declaration().role
+    }
+    pub fn about(self) -> &'static str {
+        self.declaration().about
+    }
+    /// Law of a role by its word.
+    pub fn named(role: Role, word: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|law| law.role() == role && law.word() == word)
+    }
+    pub fn of_role(role: Role) -> impl Iterator<Item = Self> {
+        Self::ALL.iter().copied().filter(move |law| law.role() == role)
+    }
+    /// Stress depends on more than the deformation.
+    pub fn has_memory(self) -> bool {
+        self.role() != Role::Heat && !self.declaration().remembers.is_empty()
+    }
+    /// A strength that gives way.
+    pub fn yields(self) -> bool {
+        self.role() == Role::Strength && self.has_memory()
+    }
+    pub fn reads(self, what: Reads) -> bool {
+        self.declaration().reads.contains(&what)
     }
 }
 
-const NEO_HOOKEAN: u32 = Law::NeoHookean as u32;
-const MAXWELL: u32 = Law::Maxwell as u32;
-const J2: u32 = Law::J2 as u32;
+/// Where a strength is asked what it bears.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<R> {
+    /// Equivalent plastic strain.
+    pub strain: R,
+    /// Its rate.
+    pub rate: R,
+    pub temperature: R,
+}
 
-/// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the inelastic strain C_i - 1 of a law
-/// that remembers. This and the next two come to a shader as `src/backend/shader/laws.rs` writes them.
+/// What it bears: a Mises stress, and its derivatives by the plastic strain and its rate.
+#[derive(Debug, Clone, Copy)]
+pub struct Flow<R> {
+    pub stress: R,
+    pub by_strain: R,
+    pub by_rate: R,
+}
+
+/// What a particle of finite strain remembers.
+#[derive(Debug, Clone, Copy)]
+pub struct Memory<S: Space> {
+    /// C_i - 1, the inelastic strain.
+    pub strain: S::Sym,
+    /// Equivalent plastic strain.
+    pub plastic: S::Real,
+    pub temperature: S::Real,
+}
+
+impl<S: Space> Default for Memory<S> {
+    fn default() -> Self {
+        Self { strain: S::Sym::default(), plastic: S::Real::default(), temperature: S::Real::default() }
+    }
+}
+
+const NEO_HOOKEAN: u32 = Law::NeoHookean.number();
+const MAXWELL: u32 = Law::Maxwell.number();
+const ST_VENANT_KIRCHHOFF: u32 = Law::StVenantKirchhoff.number();
+
+/// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the inelastic strain C_i - 1 of a material that
+/// remembers. This, [`relax`] and [`dissipated`] come to a shader as `src/backend/shader/laws.rs` writes them.
 #[inline(always)]
 pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Mat {
-    match body.law {
+    match body.whole {
+        ST_VENANT_KIRCHHOFF => st_venant_kirchhoff::first_piola::<S>(body, h),
         NEO_HOOKEAN => neo_hookean::first_piola::<S>(body, h),
-        MAXWELL | J2 => maxwell::first_piola::<S>(body, h, memory),
-        _ => st_venant_kirchhoff::first_piola::<S>(body, h),
+        MAXWELL => maxwell::first_piola::<S>(body, h, memory),
+        _ => inelastic::first_piola::<S>(body, h, memory, kirchhoff(body, strain::volume_change::<S>(h))),
     }
 }
 
 /// Memory after a step that ends at the deformation 1 + H.
 #[inline(always)]
 pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>, step: S::Real) -> Memory<S> {
-    match body.law {
-        MAXWELL => (maxwell::relax::<S>(body, h, memory.0, step), memory.1),
-        J2 => j2::relax::<S>(body, h, memory),
+    match body.whole {
+        MAXWELL => maxwell::relax::<S>(body, h, memory, step),
+        0 => yielding::relax::<S>(body, h, memory, step),
         _ => memory,
     }
 }
 
-/// Heat of one step, plastic work included, per reference volume, from H and memory before and after it.
+/// Heat of one step, plastic work included, per reference volume, from H and the inelastic strain before and after it.
 #[inline(always)]
 pub fn dissipated<S: Space>(body: &Body<S::Real>, before: (S::Mat, S::Sym), after: (S::Mat, S::Sym)) -> S::Real {
-    if body.law == MAXWELL || body.law == J2 { maxwell::dissipated::<S>(body, before, after) } else { S::Real::of(0.0) }
+    if body.whole == MAXWELL || body.whole == 0 { inelastic::dissipated::<S>(body, before, after) } else { S::Real::of(0.0) }
 }
 
 /// Elastic energy per reference volume of the deformation 1 + H.
 pub fn stored_energy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Real {
-    match body.law {
+    match body.whole {
+        ST_VENANT_KIRCHHOFF => st_venant_kirchhoff::stored_energy::<S>(body, h),
         NEO_HOOKEAN => neo_hookean::stored_energy::<S>(body, h),
-        MAXWELL | J2 => maxwell::stored_energy::<S>(body, h, memory),
-        _ => st_venant_kirchhoff::stored_energy::<S>(body, h),
+        MAXWELL => maxwell::stored_energy::<S>(body, h, memory),
+        _ => inelastic::isochoric_energy::<S>(body, h, memory) + stored_in_volume(body, strain::volume_change::<S>(h)),
     }
 }
 
@@ -123,11 +203,10 @@ pub fn cauchy<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::S
     S::sym_part(kirchhoff) * (one / (one + strain::volume_change::<S>(h)))
 }
 
-/// P = K (rho/rho_0 - 1) = -K e/(1 + e), e the volumetric strain. With the bulk modulus K, not rho c^2 of
-/// p-waves: that is 62 % too stiff at a Poisson ratio of 0.3.
+/// Pressure of a material made of roles at a volumetric strain.
 #[inline(always)]
-pub fn pressure<R: Real>(bulk_modulus: R, volumetric_strain: R) -> R {
-    -bulk_modulus * volumetric_strain / (R::of(1.0) + volumetric_strain)
+pub fn pressure<R: Real>(body: &Body<R>, volumetric_strain: R) -> R {
+    -kirchhoff(body, volumetric_strain) / (R::of(1.0) + volumetric_strain)
 }
 
 /// 2 mu (D - tr D/3), Fuller (2.40); plane strain and uniaxial strain keep the third of the trace that the
@@ -138,9 +217,30 @@ pub fn deviatoric_rate<S: Space>(shear_modulus: S::Real, velocity_gradient: S::M
     (S::sym_part(velocity_gradient) - S::diagonal(third)) * (S::Real::of(2.0) * shear_modulus)
 }
 
-/// Elastic energy per reference volume: K (e - ln(1 + e)) + S:S/(4 mu) (1 + e), the full S:S in three dimensions.
-pub fn elastic_energy(bulk_modulus: f64, shear_modulus: f64, volumetric_strain: f64, deviator_square: f64) -> f64 {
-    let volumetric = bulk_modulus * (volumetric_strain - volumetric_strain.ln_1p());
-    let deviatoric = if shear_modulus > 0.0 { deviator_square / (4.0 * shear_modulus) } else { 0.0 };
-    volumetric + deviatoric * (1.0 + volumetric_strain)
+/// Elastic energy of the Eulerian formulation per reference volume: that of the volume, and S:S/(4 mu) (1 + e), the
+/// full S:S in three dimensions.
+pub fn elastic_energy(body: &Body<f64>, volumetric_strain: f64, deviator_square: f64) -> f64 {
+    let mu = body.shear_modulus;
+    let deviatoric = if mu > 0.0 { deviator_square / (4.0 * mu) } else { 0.0 };
+    stored_in_volume(body, volumetric_strain) + deviatoric * (1.0 + volumetric_strain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_law_fits_into_its_room_and_declares_numbers_in_range() {
+        for law in Law::ALL {
+            let declared = law.declaration();
+            assert!(declared.numbers.len() <= law.role().room(), "{}", law.word());
+            assert!(law.role().first() + law.role().room() <= NUMBERS);
+            for number in declared.numbers {
+                let values = number.default.into_iter().chain([number.sample]);
+                assert!(values.into_iter().all(|value| number.range.holds(value)), "{} {}", law.word(), number.key);
+            }
+            let known = declared.reads.iter().all(|_| law.role() == Role::Strength);
+            assert!(known, "{} is no strength and reads", law.word());
+        }
+    }
 }

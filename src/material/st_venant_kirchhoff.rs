@@ -6,6 +6,11 @@ use super::strain::right_strain;
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
+super::law::law! {
+    StVenantKirchhoff, st_venant_kirchhoff, Whole, "stress linear in Green's strain: large rotations, small strains";
+    reads: [], remembers: [];
+}
+
 #[inline(always)]
 fn lambda<R: Real>(body: &Body<R>) -> R {
     body.bulk_modulus - body.shear_modulus * R::of(2.0 / 3.0)

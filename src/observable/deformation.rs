@@ -2,7 +2,7 @@
 //! where the axes that the scene lacks do not deform.
 
 use super::Moment;
-use crate::material::{cauchy, maxwell, stored_energy, strain};
+use crate::material::{cauchy, inelastic, stored_energy, strain};
 use crate::particles::Field;
 use crate::rows::Body;
 use crate::tensor::{Line, Plane, Solid, Space, Tuple};
@@ -49,10 +49,10 @@ impl Deformation {
 fn in_space(memory: &[f64]) -> <Solid<f64> as Space>::Sym {
     match *memory {
         [xx] => {
-            let across = maxwell::whole::<Line<f64>>(Tuple([xx])).across;
+            let across = inelastic::whole::<Line<f64>>(Tuple([xx])).across;
             Tuple([xx, across, across, 0.0, 0.0, 0.0])
         }
-        [xx, yy, xy] => Tuple([xx, yy, maxwell::whole::<Plane<f64>>(Tuple([xx, yy, xy])).across, xy, 0.0, 0.0]),
+        [xx, yy, xy] => Tuple([xx, yy, inelastic::whole::<Plane<f64>>(Tuple([xx, yy, xy])).across, xy, 0.0, 0.0]),
         _ => Tuple(std::array::from_fn(|k| memory[k])),
     }
 }

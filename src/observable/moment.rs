@@ -185,7 +185,7 @@ impl<'a> Moment<'a> {
             return -(s[0] + s[1] + s[2]) / 3.0;
         }
         let body = &self.scene.bodies[self.scene.particles[i].body as usize];
-        material::pressure(body.bulk_modulus, self.volumetric_strain(i))
+        material::pressure(&body.material.row(), self.volumetric_strain(i))
     }
 
     /// xx, yy, zz, xy, yz, xz; tension positive.
@@ -207,7 +207,7 @@ impl<'a> Moment<'a> {
         let body = &self.scene.bodies[particle.body as usize];
         let s = self.deviator(i);
         let square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
-        particle.volume * material::elastic_energy(body.bulk_modulus, body.shear_modulus, self.volumetric_strain(i), square)
+        particle.volume * material::elastic_energy(&body.material.row(), self.volumetric_strain(i), square)
     }
 
     /// The numbers of a quantity of [`QUANTITIES`].
@@ -220,7 +220,7 @@ impl<'a> Moment<'a> {
             "acceleration" => self.vector(Field::Acceleration, i).to_vec(),
             "stress" => self.stress(i).to_vec(),
             "pressure" => vec![self.pressure(i)],
-            "density" => vec![self.scene.bodies[particle.body as usize].density / (1.0 + self.volumetric_strain(i))],
+            "density" => vec![self.scene.bodies[particle.body as usize].material.density / (1.0 + self.volumetric_strain(i))],
             "volumetric_strain" => vec![self.volumetric_strain(i)],
             "internal_energy" => vec![self.scalar(Field::InternalEnergy, i)],
             "dissipated_energy" => vec![self.scalar(Field::DissipatedEnergy, i)],

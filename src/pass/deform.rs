@@ -59,7 +59,7 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
         return;
     }
     let step = state.clock.step;
-    let mut memories = vec![(S::Sym::default(), S::Real::of(0.0)); state.params.count as usize];
+    let mut memories = vec![Memory::default(); state.params.count as usize];
     let gradients = &state.particles.displacement_gradient;
     super::write(&mut memories, |a, memory| {
         *memory = material::relax::<S>(state.body(a), gradients[a], remembered(state, a), step);
@@ -69,15 +69,19 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
         super::write(&mut heats, |a, heat| {
             let (body, old) = (state.body(a), state.particles.inelastic_strain[a]);
             let of_step =
-                material::dissipated::<S>(body, (before[a], old), (state.particles.displacement_gradient[a], memories[a].0));
+                material::dissipated::<S>(body, (before[a], old), (state.particles.displacement_gradient[a], memories[a].strain));
             *heat += of_step * (S::Real::of(1.0) / body.density);
         });
         state.particles.dissipated_energy = heats;
     }
-    for (a, (strain, plastic)) in memories.into_iter().enumerate() {
-        state.particles.inelastic_strain[a] = strain;
-        if let Some(slot) = state.particles.equivalent_plastic_strain.get_mut(a) {
-            *slot = plastic;
+    let particles = &mut state.particles;
+    for (a, memory) in memories.into_iter().enumerate() {
+        particles.inelastic_strain[a] = memory.strain;
+        if let Some(slot) = particles.equivalent_plastic_strain.get_mut(a) {
+            *slot = memory.plastic;
+        }
+        if let Some(slot) = particles.temperature.get_mut(a) {
+            *slot = memory.temperature;
         }
     }
 }
@@ -92,7 +96,11 @@ fn remembered<S: Space>(state: &State<S>, a: usize) -> Memory<S> {
     } else {
         (&particles.inelastic_strain, &particles.equivalent_plastic_strain)
     };
-    (strains[a], plastic.get(a).copied().unwrap_or_default())
+    Memory {
+        strain: strains[a],
+        plastic: plastic.get(a).copied().unwrap_or_default(),
+        temperature: particles.temperature.get(a).copied().unwrap_or_default(),
+    }
 }
 
 /// sum V_b (u_b - u_a) (x) grad_a W_ab

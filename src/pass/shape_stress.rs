@@ -4,9 +4,9 @@
 //! volumes. A law that remembers takes its memory to the end of the step first. Twin: shaders/pass/shape_stress.wgsl
 
 use super::Stage;
-use crate::material::{self, strain};
+use crate::material::{self, Memory, strain};
 use crate::state::State;
-use crate::tensor::{Real, Space};
+use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
@@ -16,7 +16,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut memories = std::mem::take(&mut state.particles.inelastic_strain);
     let gradients = &state.particles.displacement_gradient;
     super::write(&mut memories, |a, memory| {
-        *memory = material::relax::<S>(state.body(a), gradients[a], (*memory, S::Real::of(0.0)), step).0;
+        *memory = material::relax::<S>(state.body(a), gradients[a], Memory { strain: *memory, ..Memory::default() }, step).strain;
     });
     state.particles.inelastic_strain = memories;
     let mut stresses = std::mem::take(&mut state.particles.shape_stress);

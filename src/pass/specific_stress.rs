@@ -26,7 +26,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         Some(ArtificialForm::Scalar) => {
             let mut artificial = std::mem::take(&mut state.particles.artificial_pressure);
             super::write(&mut artificial, |a, slot| {
-                let pressure = material::pressure(state.body(a).bulk_modulus, state.particles.volumetric_strain[a]);
+                let pressure = material::pressure(state.body(a), state.particles.volumetric_strain[a]);
                 let tension = (-pressure).max(S::Real::of(0.0));
                 *slot = -state.params.artificial_epsilon * tension * square_of_volume(state, a);
             });
@@ -54,7 +54,7 @@ fn square_of_volume<S: Space>(state: &State<S>, a: usize) -> S::Real {
 /// sigma = -P 1 + S, Fuller (2.29) with the sign mended.
 #[inline(always)]
 pub fn stress<S: Space>(state: &State<S>, a: usize) -> S::Sym {
-    let pressure = material::pressure(state.body(a).bulk_modulus, state.particles.volumetric_strain[a]);
+    let pressure = material::pressure(state.body(a), state.particles.volumetric_strain[a]);
     let sigma = S::diagonal(-pressure);
     if state.method.shear { sigma + state.particles.deviatoric_stress[a] } else { sigma }
 }

@@ -8,7 +8,10 @@
 //! q = sqrt(3 J2) (Wilkins 1964). Fuller (5.1) as printed lacks the root: sY^2/q^2 takes S below the surface.
 
 use super::Stage;
-use crate::material;
+use crate::material::{
+    self,
+    yielding::{Before, Yielded, yielded},
+};
 use crate::method::{Density, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
@@ -45,18 +48,27 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 /// Returns stress to the yield surface.
 fn yield_to<S: Space>(state: &mut State<S>) {
     let zero = S::Real::of(0.0);
-    let mut returns = vec![(S::Sym::default(), zero, zero); state.params.count as usize];
+    let none = Yielded { deviator: S::Sym::default(), growth: zero, work: zero };
+    let mut returns = vec![none; state.params.count as usize];
     super::write(&mut returns, |a, slot| {
         let particles = &state.particles;
-        let (stress, k) = (particles.deviatoric_stress[a], particles.equivalent_plastic_strain[a]);
-        *slot = material::j2::yielded::<S>(state.body(a), stress, k);
+        let before = Before {
+            strain: particles.equivalent_plastic_strain[a],
+            temperature: particles.temperature.get(a).copied().unwrap_or(zero),
+            volume: S::Real::of(1.0) + particles.volumetric_strain[a],
+        };
+        *slot = yielded::<S>(state.body(a), particles.deviatoric_stress[a], before, state.clock.step);
     });
-    for (a, (stress, growth, work)) in returns.into_iter().enumerate() {
-        let specific_volume = (S::Real::of(1.0) + state.particles.volumetric_strain[a]) / state.body(a).density;
-        state.particles.deviatoric_stress[a] = stress;
-        state.particles.equivalent_plastic_strain[a] += growth;
-        if let Some(heat) = state.particles.dissipated_energy.get_mut(a) {
-            *heat += work * specific_volume;
+    for (a, Yielded { deviator, growth, work }) in returns.into_iter().enumerate() {
+        let body = *state.body(a);
+        let particles = &mut state.particles;
+        particles.deviatoric_stress[a] = deviator;
+        particles.equivalent_plastic_strain[a] += growth;
+        if let Some(temperature) = particles.temperature.get_mut(a) {
+            *temperature += material::rise(&body, work);
+        }
+        if let Some(heat) = particles.dissipated_energy.get_mut(a) {
+            *heat += work * (S::Real::of(1.0) / body.density);
         }
     }
 }

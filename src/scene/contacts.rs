@@ -102,7 +102,7 @@ fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(
 
 /// Mean spacing, and the lower of the moduli.
 fn scales([a, b]: [&SceneBody; 2]) -> (f64, f64) {
-    (0.5 * (a.spacing + b.spacing), a.youngs_modulus().min(b.youngs_modulus()))
+    (0.5 * (a.spacing + b.spacing), a.material.youngs_modulus().min(b.material.youngs_modulus()))
 }
 
 fn by_potential(
@@ -139,7 +139,7 @@ fn by_colour_field(
     })?;
     let alike = file.contact.iter().filter_map(|contact| contact.colour_field.as_ref()).all(|other| other == typed);
     refuse.unless(alike, path, || "all contacts by the colour field share one stiffness, threshold and range".into())?;
-    let modulus = bodies.iter().map(SceneBody::youngs_modulus).fold(f64::INFINITY, f64::min);
+    let modulus = bodies.iter().map(|body| body.material.youngs_modulus()).fold(f64::INFINITY, f64::min);
     let range = typed.range * scales(both).0;
     let (strength, threshold) = (typed.stiffness * modulus, typed.threshold);
     Ok(ContactPair { law: COLOUR_FIELD, strength, range, threshold, ..ContactPair::default() })

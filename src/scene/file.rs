@@ -3,12 +3,12 @@
 //!
 //! Lengths, times and masses are in the scene's own consistent units (`units`).
 
+use super::material::MaterialTable;
 use super::packing::Packing;
 use super::shape::{Coordinates, Shape};
 use super::study::Groups;
 use crate::contact::Potential;
 use crate::contact::zones::{Form, Normals};
-use crate::material::Law;
 use crate::method::{ArtificialForm, Density, Descent, Formulation, Gradient, Integrator};
 use crate::method::{Configuration, Deformation, GapForm, VelocityGradient};
 use crate::smoothing::Smoothing;
@@ -81,7 +81,7 @@ impl File {
     /// Strength of the hourglass energy. A body that yields bears less of it: at 0.5 a flat punch asks for 11 % more
     /// than the slip lines do, at 0.1 for 9 %.
     pub fn hourglass(&self) -> f64 {
-        let yields = self.body.iter().any(|body| self.material.get(&body.material).is_some_and(|m| m.law == Law::J2));
+        let yields = self.body.iter().any(|body| self.material.get(&body.material).is_some_and(MaterialTable::yields));
         let usual = if self.formulation.kind != Formulation::TotalLagrangian {
             0.0
         } else if yields {
@@ -204,34 +204,6 @@ pub struct Twist {
 pub struct Kick {
     pub at: Coordinates,
     pub velocity: Coordinates,
-}
-
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MaterialTable {
-    #[serde(default)]
-    pub law: Law,
-    pub density: f64,
-    pub youngs_modulus: Option<f64>,
-    pub poisson_ratio: Option<f64>,
-    pub bulk_modulus: Option<f64>,
-    pub shear_modulus: Option<f64>,
-    /// Newtonian viscosity of a Maxwell body: stress times time.
-    pub viscosity: Option<f64>,
-    /// Mises stress at which a J2 body begins to flow.
-    pub yield_stress: Option<f64>,
-    /// How its yield stress grows; not at all unless given.
-    pub hardening: Option<Hardening>,
-}
-
-/// What is added to the yield stress at the equivalent plastic strain k.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Hardening {
-    /// Modulus times k.
-    Linear(f64),
-    /// coefficient k^exponent
-    Power { coefficient: f64, exponent: f64 },
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

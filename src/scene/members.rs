@@ -1,7 +1,7 @@
 //! What a scene is made of: bodies, particles and what acts on them.
 
 use super::facets;
-use crate::material::Law;
+use super::material::Material;
 use crate::rows::{FacetPair, Obstacle};
 use glam::DVec3;
 
@@ -13,30 +13,11 @@ pub struct SceneBody {
     pub group: String,
     pub spacing: f64,
     pub smoothing_length: f64,
-    pub density: f64,
-    pub law: Law,
-    pub bulk_modulus: f64,
-    pub shear_modulus: f64,
-    /// Shear modulus over viscosity of a Maxwell body, else 0.
-    pub relaxation: f64,
-    /// Yield stress of a J2 body, and its hardening's coefficient and exponent; else 0, 0 and 1.
-    pub yield_stress: f64,
-    pub hardening: [f64; 2],
+    pub material: Material,
     /// Volume over unstressed volume at the start.
     pub relative_volume: f64,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.
     pub deviator: [f64; 6],
-}
-
-impl SceneBody {
-    pub fn youngs_modulus(&self) -> f64 {
-        9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
-    }
-
-    /// Speed of longitudinal waves.
-    pub fn sound_speed(&self) -> f64 {
-        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()
-    }
 }
 
 /// A particle at the start.

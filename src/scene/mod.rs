@@ -9,6 +9,7 @@ mod corrected_kernel;
 mod cost;
 pub mod facets;
 pub mod file;
+pub mod material;
 mod members;
 mod model;
 mod motion;

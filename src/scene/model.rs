@@ -56,7 +56,7 @@ impl Scene {
     /// Constant mass of a particle.
     pub fn mass(&self, number: usize) -> f64 {
         let particle = &self.particles[number];
-        particle.volume * self.bodies[particle.body as usize].density
+        particle.volume * self.bodies[particle.body as usize].material.density
     }
 
     /// Index of the body, or of the first copy, of that name.

@@ -3,7 +3,6 @@
 use super::SceneBody;
 use super::file::{File, QuasiStatic};
 use super::refuse::{MOST_OUTPUTS, Refuse};
-use crate::material::Law;
 use crate::method::{Formulation, Integrator};
 
 pub(super) fn check(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<(), String> {
@@ -19,8 +18,8 @@ pub(super) fn check(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
     })?;
     for (k, body) in bodies.iter().enumerate() {
         let path = ["body", &k.to_string(), "material"];
-        refuse.unless(body.law != Law::Maxwell, &path, || {
-            format!("body `{}` is a Maxwell body, which creeps for ever: a quasi_static scene has no time for it", body.name)
+        refuse.unless(!body.material.creeps(), &path, || {
+            format!("body `{}` creeps for ever by its law: a quasi_static scene has no time for it", body.name)
         })?;
     }
     refuse.unless(file.time.integrator == Integrator::Leapfrog, &["time", "integrator"], || {

@@ -3,6 +3,7 @@
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
 use super::file::{ArtificialSpacing, Axis, File, Fixed};
+use super::material::Material;
 use super::packing::fill;
 use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
@@ -151,8 +152,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             return Err(refuse_at("material", format!("no [material.{}]{hint}", typed.material)));
         };
         let named = |message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material));
-        let (bulk_modulus, shear_modulus) = moduli(material).map_err(named)?;
-        let (yield_stress, hardening) = plasticity::numbers(material).map_err(named)?;
+        let material = Material::resolve(material, file.formulation.kind).map_err(named)?;
         let relative_volume = typed.relative_volume.unwrap_or(1.0);
         if !(relative_volume > 0.0 && relative_volume.is_finite()) {
             return Err(refuse_at(
@@ -168,7 +168,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
                 "the first three components of a deviatoric stress must sum to zero".into(),
             ));
         }
-        if scale > 0.0 && shear_modulus == 0.0 {
+        if scale > 0.0 && material.shear_modulus == 0.0 {
             return Err(refuse_at("deviatoric_stress", "a fluid carries no deviatoric stress".into()));
         }
         let spacing = typed.spacing.unwrap_or(file.spacing);
@@ -180,13 +180,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             group: typed.group.clone().unwrap_or_else(|| typed.name.clone()),
             spacing,
             smoothing_length: file.formulation.smoothing_length * spacing,
-            density: material.density,
-            law: material.law,
-            bulk_modulus,
-            shear_modulus,
-            relaxation: material.viscosity.map_or(0.0, |viscosity| shear_modulus / viscosity),
-            yield_stress,
-            hardening,
+            material,
             relative_volume,
             deviator,
         });
@@ -198,34 +192,6 @@ fn names(bodies: &[SceneBody]) -> Vec<&str> {
     let mut list: Vec<&str> = bodies.iter().map(|body| body.group.as_str()).collect();
     list.dedup();
     list
-}
-
-/// Bulk and shear modulus from the pair of constants that is typed.
-fn moduli(material: &file::MaterialTable) -> Result<(f64, f64), String> {
-    let positive = |value: f64, what: &str| {
-        if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("needs a positive {what}, found {value}")) }
-    };
-    positive(material.density, "density")?;
-    match (material.law, material.viscosity) {
-        (Law::Maxwell, Some(viscosity)) => positive(viscosity, "viscosity").map(|_| ())?,
-        (Law::Maxwell, None) => return Err("is a Maxwell body: it needs a viscosity".into()),
-        (_, Some(_)) => return Err("has a viscosity, which only the law `maxwell` takes".into()),
-        (_, None) => {}
-    }
-    let given = (material.youngs_modulus, material.poisson_ratio, material.bulk_modulus, material.shear_modulus);
-    match (material.law, given) {
-        (Law::Fluid, (None, None, Some(k), None)) => Ok((positive(k, "bulk_modulus")?, 0.0)),
-        (Law::Fluid, _) => Err("is a fluid: it needs bulk_modulus and no other modulus".into()),
-        (_, (Some(e), Some(nu), None, None)) => {
-            positive(e, "youngs_modulus")?;
-            if !(nu > -1.0 && nu < 0.5) {
-                return Err(format!("needs a poisson_ratio between -1 and 0.5, found {nu}"));
-            }
-            Ok((e / (3.0 * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu))))
-        }
-        (_, (None, None, Some(k), Some(mu))) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
-        _ => Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into()),
-    }
 }
 
 fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Particle>, String> {
@@ -287,7 +253,7 @@ fn constraints(
             wanted.as_ref().is_none_or(|list| list.binary_search(&(p.body as usize)).is_ok())
                 && typed.select.inside.as_ref().is_none_or(|s| s.contains(p.position, file.dimension))
         };
-        let mass: f64 = particles.iter().filter(|p| chosen(p)).map(|p| p.volume * bodies[p.body as usize].density).sum();
+        let mass: f64 = particles.iter().filter(|p| chosen(p)).map(|p| p.volume * bodies[p.body as usize].material.density).sum();
         if mass == 0.0 {
             return Err(refuse.at(&path, format!("`{name}` selects no particle")));
         }
@@ -409,7 +375,7 @@ fn method(
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
         "xsph and velocity_filter are two uses of one average: name one of them".into()
     })?;
-    let dissipates = f.viscosity.is_some() || rubs(file) || bodies.iter().any(|body| body.law.has_memory());
+    let dissipates = f.viscosity.is_some() || rubs(file) || bodies.iter().any(|body| body.material.has_memory());
     refuse.unless(!f.dissipated_energy || dissipates, &["formulation", "dissipated_energy"], || {
         "dissipated_energy adds up the heat of viscosity, friction and plastic work, and this scene names no viscosity, has \
          no friction and does not yield"
@@ -420,7 +386,7 @@ fn method(
     lagrangian_only(file, bodies, refuse)?;
     plasticity::check(file, bodies, refuse)?;
     quasi_static::check(file, bodies, refuse)?;
-    let mut laws: Vec<Law> = bodies.iter().map(|body| body.law).collect();
+    let mut laws: Vec<Law> = bodies.iter().flat_map(|body| body.material.laws()).collect();
     laws.sort_unstable();
     laws.dedup();
     let body_force = file.body_force.as_ref().is_some_and(|g| g.iter().any(|&x| x != 0.0));
@@ -436,7 +402,7 @@ fn method(
         laws,
         hourglass: lagrangian && file.hourglass() > 0.0,
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
-        shear: bodies.iter().any(|b| b.shear_modulus > 0.0),
+        shear: bodies.iter().any(|b| b.material.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
         coupling: coupling.iter().flatten().any(|&c| c != 1.0),
         constraints: !constraints.is_empty(),
@@ -469,11 +435,12 @@ fn lagrangian_only(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result
     let finite = f.kind != Formulation::Eulerian;
     for (k, body) in bodies.iter().enumerate() {
         let at = k.to_string();
-        let serves = if finite { body.law.is_finite_strain() } else { body.law.is_hypoelastic() };
+        let whole = body.material.whole.is_some();
+        let serves = if finite { whole || body.material.yields() } else { !whole };
         refuse.unless(serves, &["body", &at, "material"], || {
             let words = "`st_venant_kirchhoff`, `neo_hookean`, `maxwell`";
             if finite {
-                format!("this formulation.kind takes a material whose law is {words} or `j2`")
+                format!("this formulation.kind takes a material whose law is {words} or a strength that yields, such as `j2`")
             } else {
                 format!("a material whose law is one of {words} needs formulation.kind `total_lagrangian` or `corrected_kernel`")
             }
@@ -513,13 +480,14 @@ fn lagrangian_only(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result
     refuse.unless(file.hourglass() >= 0.0 && file.hourglass().is_finite(), &["formulation", "hourglass"], || {
         format!("hourglass must be 0 or a positive number, found {}", file.hourglass())
     })?;
-    let remembers = bodies.iter().any(|body| body.law.has_memory());
+    let remembers = bodies.iter().any(|body| body.material.has_memory());
     let conservative = lagrangian && f.viscosity.is_none() && !remembers;
     refuse.unless(conservative || file.time.integrator != Integrator::Pefrl, &["time", "integrator"], || {
         "pefrl needs forces that depend on positions alone: a Total Lagrangian scene without viscosity or a law that remembers".into()
     })?;
     refuse.unless(!remembers || file.time.integrator == Integrator::Leapfrog, &["time", "integrator"], || {
-        "the laws `maxwell` and `j2` take what they remember to the end of whole steps: only the integrator leapfrog has them"
+        "the law `maxwell` and strengths that yield take what they remember to the end of whole steps: only the integrator \
+         leapfrog has them"
             .into()
     })
 }

@@ -119,6 +119,9 @@ impl Scene {
             if let Some(slot) = columns.volumetric_strain.get_mut(i) {
                 *slot = S::Real::of(body.relative_volume - 1.0);
             }
+            if let Some(slot) = columns.temperature.get_mut(i) {
+                *slot = S::Real::of(body.material.temperature());
+            }
             if let Some(slot) = columns.body.get_mut(i) {
                 *slot = particle.body;
             }
@@ -234,7 +237,7 @@ impl Scene {
             let body = &self.bodies[particle.body as usize];
             let way = facet.piece.position.distance_squared(particle.position) / (body.spacing * body.spacing);
             let pull = stiffness[particle.body as usize] * facet.piece.area * (1.0 + 2.0 * way);
-            rates[facet.owner as usize] += pull / (particle.volume * body.density);
+            rates[facet.owner as usize] += pull / (particle.volume * body.material.density);
         }
         0.25 * rates.into_iter().fold(0.0, f64::max)
     }
@@ -376,20 +379,21 @@ fn keeps_gradients(method: &Method) -> bool {
 impl super::SceneBody {
     /// The body's row in the table of bodies.
     pub fn numbers<R: Real>(&self) -> Body<R> {
-        let real = R::of;
+        let (real, row) = (R::of, self.material.row());
         Body {
-            law: self.law as u32,
-            padding: 0,
-            density: real(self.density),
-            bulk_modulus: real(self.bulk_modulus),
-            shear_modulus: real(self.shear_modulus),
-            youngs_modulus: real(self.youngs_modulus()),
-            relaxation: real(self.relaxation),
-            yield_stress: real(self.yield_stress),
-            hardening: real(self.hardening[0]),
-            hardening_exponent: real(self.hardening[1]),
-            sound_speed: real(self.sound_speed()),
+            whole: row.whole,
+            pressure: row.pressure,
+            strength: row.strength,
+            heat: row.heat,
+            density: real(row.density),
+            bulk_modulus: real(row.bulk_modulus),
+            shear_modulus: real(row.shear_modulus),
+            youngs_modulus: real(row.youngs_modulus),
+            yield_stress: real(row.yield_stress),
+            sound_speed: real(row.sound_speed),
             smoothing_length: real(self.smoothing_length),
+            padding: real(0.0),
+            numbers: row.numbers.map(real),
         }
     }
 }

@@ -33,7 +33,7 @@ impl Parts<'_> {
             self.check_gap(gap, contact.touches(), &path)?;
             for (a, b) in pairs(bodies, &contact.between) {
                 let spacing = bodies[a].spacing.max(bodies[b].spacing);
-                let modulus = bodies[a].youngs_modulus().min(bodies[b].youngs_modulus());
+                let modulus = bodies[a].material.youngs_modulus().min(bodies[b].material.youngs_modulus());
                 let pair = FacetPair {
                     // Each surface measures the other, so each has half the stiffness.
                     stiffness: 0.5 * gap.stiffness * modulus / spacing,
@@ -194,7 +194,7 @@ impl Parts<'_> {
         let pair = |body: &SceneBody| {
             let touches =
                 typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group));
-            let stiffness = if touches { typed.stiffness * body.youngs_modulus() / body.spacing } else { 0.0 };
+            let stiffness = if touches { typed.stiffness * body.material.youngs_modulus() / body.spacing } else { 0.0 };
             FacetPair { stiffness, friction: typed.friction, ..FacetPair::default() }
         };
         Ok(self.bodies.iter().map(pair).collect())

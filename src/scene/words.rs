@@ -18,11 +18,14 @@ pub(super) struct Fault<'a> {
 }
 
 /// Keys whose value is a table of exactly one key, which says what kind of thing it holds.
-const CHOICES: [(&str, &str); 5] = [
+const CHOICES: [(&str, &str); 8] = [
     ("shape", SHAPE),
     ("inside", SHAPE),
     ("from", SHAPE),
     ("hardening", "a table such as `{ linear = 0.1 }`"),
+    ("pressure", "a word or a table such as `{ linear = { bulk_modulus = 1.0 } }`"),
+    ("strength", "a word or a table such as `{ j2 = { yield_stress = 0.1 } }`"),
+    ("heat", "a table such as `{ isothermal = { temperature = 293 } }`"),
     ("motion", "a table such as `{ wave = { amplitude = [1], wave_vector = [2] } }`"),
 ];
 const SHAPE: &str = "a table such as `{ disc = { center = [0, 0], radius = 1 } }`";

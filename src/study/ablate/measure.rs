@@ -194,7 +194,7 @@ impl Natural {
     fn of(scene: &Scene) -> Self {
         let (low, high) = scene.extent();
         let mass = (0..scene.particles.len()).map(|k| scene.mass(k)).sum();
-        let speed = scene.bodies.iter().map(|body| body.sound_speed()).fold(0.0, f64::max);
+        let speed = scene.bodies.iter().map(|body| body.material.sound_speed()).fold(0.0, f64::max);
         Self { mass, speed, length: (high - low).length() }
     }
 

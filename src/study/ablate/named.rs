@@ -6,7 +6,8 @@ use crate::method::{Formulation, Gradient, Integrator};
 use crate::observable::{KINDS, fields_of_path};
 use crate::particles::{Field, Set};
 use crate::scene::Scene;
-use crate::scene::file::{ContactTable, File, MaterialTable, Observe};
+use crate::scene::file::{ContactTable, File, Observe};
+use crate::scene::material::MaterialTable;
 
 /// Every named piece; `typed` is the file before copies of bodies are made.
 pub fn pieces(scene: &Scene, typed: &File) -> Vec<Piece> {
@@ -62,7 +63,7 @@ impl Named<'_> {
 
     /// How many things make heat.
     fn dissipates(&self) -> usize {
-        let laws = self.used().filter(|(_, material)| material.law.has_memory()).count();
+        let laws = self.used().filter(|(_, material)| material.has_memory()).count();
         usize::from(self.scene.method.viscosity) + usize::from(self.scene.method.friction) + laws
     }
 
@@ -75,13 +76,13 @@ impl Named<'_> {
         for (name, material) in self.used() {
             let key = |key: &str, value: &str| format!("material.{name}.{key}={value}");
             let elastic = if self.file.formulation.kind == Formulation::Eulerian { "elastic" } else { "neo_hookean" };
-            let hardening = material.hardening.map(|_| key("hardening", "none"));
+            let hardening = material.hardens().then(|| key("hardening", "none"));
             if let Some(hardening) = &hardening {
                 list.push(piece(format!("hardening of `{name}`"), vec![hardening.clone()]));
             }
-            let (what, limit) = match material.law {
-                Law::J2 => ("plasticity", "yield_stress"),
-                Law::Maxwell => ("relaxation", "viscosity"),
+            let (what, limit) = match material.named() {
+                Some(Law::J2) => ("plasticity", "yield_stress"),
+                Some(Law::Maxwell) => ("relaxation", "viscosity"),
                 _ => continue,
             };
             let mut overrides = vec![key("law", elastic), key(limit, "none")];
@@ -90,7 +91,7 @@ impl Named<'_> {
                 overrides.push("formulation.dissipated_energy=false".into());
                 overrides.extend(self.without_fields(&[Field::DissipatedEnergy]));
             }
-            if self.used().filter(|(_, other)| other.law.has_memory()).count() == 1 {
+            if self.used().filter(|(_, other)| other.has_memory()).count() == 1 {
                 overrides.extend(self.without_fields(&[Field::InelasticStrain, Field::EquivalentPlasticStrain]));
             }
             list.push(piece(format!("{what} of `{name}`"), overrides));

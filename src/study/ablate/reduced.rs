@@ -162,7 +162,7 @@ fn dropped(scene: &Scene, file: &File, body: &BodyTable) -> Piece {
         let facets = Field::ALL.iter().copied().filter(|field| field.set() == Set::Facet);
         overrides.extend(without_fields(scene, file, &facets.chain([Field::ContactEnergy]).collect::<Vec<Field>>()));
     }
-    let remembers = |body: &BodyTable| file.material.get(&body.material).is_some_and(|material| material.law.has_memory());
+    let remembers = |body: &BodyTable| file.material.get(&body.material).is_some_and(|material| material.has_memory());
     if !file.body.iter().any(|other| other.name != *name && remembers(other)) {
         overrides.extend(without_fields(scene, file, &[Field::InelasticStrain, Field::EquivalentPlasticStrain]));
     }

@@ -97,7 +97,7 @@ fn other_formulation(scene: &Scene) -> Value {
     ];
     let removed = given.iter().filter(|(_, given)| *given).map(|(key, _)| format!("formulation.{key}=none"));
     let elastic = |law: Law| law == from || (kind == "eulerian" && law == Law::StVenantKirchhoff);
-    let laws = scene.file.material.iter().filter(|(_, material)| elastic(material.law));
+    let laws = scene.file.material.iter().filter(|(_, material)| material.named().is_some_and(elastic));
     let laws = laws.map(|(name, _)| format!("material.{name}.law={to}"));
     // Without them the Eulerian form breaks in tension.
     let calmed: &[&str] = match kind {

@@ -58,7 +58,7 @@ impl Setting {
                 );
             }
             Formulation::Eulerian => (Theory::Eulerian(Box::new(eulerian(scene, lattice))), None),
-            Formulation::TotalLagrangian if body.law.has_memory() => {
+            Formulation::TotalLagrangian if body.material.has_memory() => {
                 return refuse("the theory of stability is that of elastic laws: `st_venant_kirchhoff` and `neo_hookean`");
             }
             Formulation::TotalLagrangian => {
@@ -71,10 +71,10 @@ impl Setting {
         };
         let viscous = f.viscosity.as_ref().filter(|typed| typed.alpha > 0.0).map(|typed| {
             let (deformation, damage) = state.unwrap_or((DMat3::IDENTITY, Damage::default()));
-            Viscous::new(&lattice, deformation, &damage, typed.alpha * body.sound_speed(), typed.softening)
+            Viscous::new(&lattice, deformation, &damage, typed.alpha * body.material.sound_speed(), typed.softening)
         });
         let (spacing, smoothing_length) = (body.spacing, body.smoothing_length);
-        let (file, sound_speed) = (lattice_file(scene), body.sound_speed());
+        let (file, sound_speed) = (lattice_file(scene), body.material.sound_speed());
         Ok(Self { file, dimension: scene.dimension(), spacing, smoothing_length, sound_speed, theory, viscous, state })
     }
 
@@ -159,7 +159,8 @@ impl Setting {
 
 fn eulerian(scene: &Scene, lattice: Lattice) -> Equations {
     let (body, f) = (&scene.bodies[0], &scene.file.formulation);
-    let mut medium = Medium::at_volume(body.relative_volume, body.density, body.bulk_modulus, body.shear_modulus);
+    let mut medium =
+        Medium::at_volume(body.relative_volume, body.material.density, body.material.bulk_modulus, body.material.shear_modulus);
     medium.deviator = body.deviator;
     let gradient = match f.gradient() {
         method::Gradient::Plain => Gradient::Plain,

@@ -1,4 +1,4 @@
-// k/10 (J^5 - J^-5) from J - 1, Hartmann & Neff 2003. Twin: src/material/neo_hookean.rs
+// k/10 (J^5 - J^-5) from J - 1, Hartmann & Neff 2003. Twin: src/material/hartmann_neff.rs
 #import strain
 
 fn volumetric_stress(bulk_modulus: real, volume_change: real) -> real {

@@ -1,0 +1,24 @@
+// Where a strength is asked what it bears, and what it bears. Twin: Point and Flow in src/material/mod.rs
+#import params
+
+struct Point {
+    // Equivalent plastic strain.
+    strain: real,
+    rate: real,
+    temperature: real,
+}
+
+// A Mises stress, and its derivatives by the plastic strain and its rate.
+struct Flow {
+    stress: real,
+    by_strain: real,
+    by_rate: real,
+}
+
+// k^n, k not negative.
+fn power_of(k: real, exponent: real) -> real {
+    if k > 0.0 {
+        return exp(exponent * log(k));
+    }
+    return 0.0;
+}

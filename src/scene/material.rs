@@ -1,0 +1,402 @@
+//! A material: as typed, by the keys that the laws declare; and what becomes of it, the laws of its roles with their
+//! numbers.
+//!
+//! `law = "j2"` beside its numbers is the short form of `strength = { j2 = { … } }` with the pressure of the formulation.
+
+use crate::material::{self, Law, NUMBERS, Number, Point, Reads, Role};
+use crate::method::Formulation;
+use crate::rows::Body;
+use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::LazyLock;
+
+/// `[material.NAME]`: density, moduli, and the numbers of a law by its short form; or a law for each role.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct MaterialTable {
+    /// Word of the short form.
+    pub law: Option<String>,
+    pub roles: BTreeMap<String, RoleTable>,
+    pub numbers: BTreeMap<String, f64>,
+}
+
+/// The law of one role, with its numbers: `{ j2 = { yield_stress = 1.0 } }`, or its word alone.
+#[derive(Debug, Clone, Serialize)]
+pub struct RoleTable {
+    pub law: String,
+    pub numbers: BTreeMap<String, f64>,
+}
+
+/// What is added to the yield stress of `j2` at the equivalent plastic strain k.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Hardening {
+    /// Modulus times k.
+    Linear(f64),
+    /// coefficient k^exponent
+    Power { coefficient: f64, exponent: f64 },
+}
+
+/// Key of the power of `hardening`, which is typed as a part of it.
+const EXPONENT: &str = "hardening_exponent";
+const HARDENING: &str = "hardening";
+/// A fluid has a pressure alone.
+const FLUID: &str = "fluid";
+const MODULI: [&str; 4] = ["youngs_modulus", "poisson_ratio", "bulk_modulus", "shear_modulus"];
+
+fn leaked(words: impl Iterator<Item = &'static str>) -> &'static [&'static str] {
+    let mut list: Vec<&str> = Vec::new();
+    words.for_each(|word| {
+        if !list.contains(&word) {
+            list.push(word)
+        }
+    });
+    Vec::leak(list)
+}
+
+fn own(law: Law) -> impl Iterator<Item = &'static str> {
+    law.declaration().numbers.iter().map(|number| number.key).filter(|key| *key != EXPONENT)
+}
+
+/// Laws that the short form names, beside [`FLUID`].
+fn short() -> impl Iterator<Item = Law> {
+    Law::of_role(Role::Strength).chain(Law::of_role(Role::Whole))
+}
+
+static WORDS: LazyLock<&[&str]> = LazyLock::new(|| leaked(short().map(Law::word).chain([FLUID])));
+static KEYS: LazyLock<&[&str]> = LazyLock::new(|| {
+    let roles = Role::ALL.map(Role::word);
+    leaked(roles.into_iter().chain(["density"]).chain(MODULI).chain(short().flat_map(own)))
+});
+static KEYS_OF_LAWS: LazyLock<Vec<&[&str]>> = LazyLock::new(|| {
+    let modulus = |law: Law| match law.role() {
+        Role::Pressure => Some("bulk_modulus"),
+        Role::Strength => Some("shear_modulus"),
+        _ => None,
+    };
+    Law::ALL.iter().map(|&law| leaked(own(law).chain(modulus(law)))).collect()
+});
+static WORDS_OF_ROLES: LazyLock<Vec<&[&str]>> =
+    LazyLock::new(|| Role::ALL.iter().map(|&role| leaked(Law::of_role(role).map(Law::word))).collect());
+
+/// The next value of a map goes to the numbers under a key; `hardening` makes two.
+fn number<'de, A: MapAccess<'de>>(map: &mut A, key: &str, numbers: &mut BTreeMap<String, f64>) -> Result<(), A::Error> {
+    if key != HARDENING {
+        numbers.insert(key.into(), map.next_value()?);
+        return Ok(());
+    }
+    let [coefficient, exponent] = match map.next_value()? {
+        Hardening::Linear(modulus) => [modulus, 1.0],
+        Hardening::Power { coefficient, exponent } => [coefficient, exponent],
+    };
+    numbers.insert(HARDENING.into(), coefficient);
+    numbers.insert(EXPONENT.into(), exponent);
+    Ok(())
+}
+
+impl<'de> Deserialize<'de> for MaterialTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Table;
+        impl<'de> Visitor<'de> for Table {
+            type Value = MaterialTable;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("struct MaterialTable")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MaterialTable, A::Error> {
+                let mut table = MaterialTable::default();
+                while let Some(key) = map.next_key::<String>()? {
+                    if !KEYS.contains(&key.as_str()) {
+                        return Err(A::Error::unknown_field(&key, *KEYS));
+                    }
+                    match Role::ALL.into_iter().find(|role| role.word() == key) {
+                        Some(Role::Whole) => table.law = Some(map.next_value::<ShortWord>()?.0),
+                        Some(role) => {
+                            table.roles.insert(key, map.next_value_seed(OfRole(role))?);
+                        }
+                        None => number(&mut map, &key, &mut table.numbers)?,
+                    }
+                }
+                if table.numbers.contains_key("density") { Ok(table) } else { Err(A::Error::missing_field("density")) }
+            }
+        }
+        deserializer.deserialize_struct("MaterialTable", *KEYS, Table)
+    }
+}
+
+/// A word of the short form.
+struct ShortWord(String);
+
+impl<'de> Deserialize<'de> for ShortWord {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        if WORDS.contains(&word.as_str()) { Ok(Self(word)) } else { Err(D::Error::unknown_variant(&word, *WORDS)) }
+    }
+}
+
+/// Reads the law of a role.
+struct OfRole(Role);
+
+impl OfRole {
+    fn law<E: Error>(&self, word: &str) -> Result<Law, E> {
+        let place = Role::ALL.iter().position(|role| *role == self.0).unwrap_or_default();
+        Law::named(self.0, word).ok_or_else(|| E::unknown_variant(word, WORDS_OF_ROLES[place]))
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for OfRole {
+    type Value = RoleTable;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<RoleTable, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for OfRole {
+    type Value = RoleTable;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a map")
+    }
+    fn visit_str<E: Error>(self, word: &str) -> Result<RoleTable, E> {
+        let law = self.law::<E>(word)?;
+        Ok(RoleTable { law: law.word().into(), numbers: BTreeMap::new() })
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RoleTable, A::Error> {
+        let one = || A::Error::custom("wanted exactly 1 element");
+        let word = map.next_key::<String>()?.ok_or_else(one)?;
+        let law = self.law::<A::Error>(&word)?;
+        let numbers = map.next_value_seed(OfLaw(law))?;
+        match map.next_key::<String>()? {
+            Some(_) => Err(one()),
+            None => Ok(RoleTable { law: word, numbers }),
+        }
+    }
+}
+
+/// Reads the numbers of a law.
+struct OfLaw(Law);
+
+impl<'de> DeserializeSeed<'de> for OfLaw {
+    type Value = BTreeMap<String, f64>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_map(self)
+    }
+}
+
+impl<'de> Visitor<'de> for OfLaw {
+    type Value = BTreeMap<String, f64>;
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a map")
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let (known, mut numbers) = (KEYS_OF_LAWS[self.0 as usize], BTreeMap::new());
+        while let Some(key) = map.next_key::<String>()? {
+            if !known.contains(&key.as_str()) {
+                return Err(A::Error::unknown_field(&key, known));
+            }
+            number(&mut map, &key, &mut numbers)?;
+        }
+        Ok(numbers)
+    }
+}
+
+impl MaterialTable {
+    pub fn number(&self, key: &str) -> Option<f64> {
+        self.numbers.get(key).copied()
+    }
+
+    /// Hardening is typed.
+    pub fn hardens(&self) -> bool {
+        self.numbers.contains_key(HARDENING)
+    }
+
+    /// The law of the short form, or of the strength; None for a fluid.
+    pub fn named(&self) -> Option<Law> {
+        match (self.law.as_deref(), self.roles.get(Role::Strength.word())) {
+            (Some(word), _) => short().find(|law| law.word() == word),
+            (None, Some(strength)) => Law::named(Role::Strength, &strength.law),
+            (None, None) if self.roles.is_empty() => Some(Law::Elastic),
+            (None, None) => None,
+        }
+    }
+
+    pub fn has_memory(&self) -> bool {
+        self.named().is_some_and(Law::has_memory)
+    }
+
+    pub fn yields(&self) -> bool {
+        self.named().is_some_and(Law::yields)
+    }
+}
+
+/// What a body is made of: the laws of its roles, with their numbers.
+#[derive(Debug, Clone)]
+pub struct Material {
+    pub density: f64,
+    pub bulk_modulus: f64,
+    pub shear_modulus: f64,
+    pub whole: Option<Law>,
+    pub pressure: Option<Law>,
+    pub strength: Option<Law>,
+    pub heat: Option<Law>,
+    pub numbers: [f64; NUMBERS],
+}
+
+impl Material {
+    /// # Errors
+    /// What the material is or lacks, to follow its name.
+    pub(super) fn resolve(typed: &MaterialTable, formulation: Formulation) -> Result<Self, String> {
+        let named = |role: Role| typed.roles.get(role.word()).and_then(|table| Law::named(role, &table.law));
+        if let (Some(word), Some(role)) = (&typed.law, typed.roles.keys().find(|role| *role != Role::Heat.word())) {
+            return Err(format!("has the law `{word}` and beside it a {role}: name one of the two"));
+        }
+        let law = typed.named();
+        let whole = law.filter(|law| law.role() == Role::Whole);
+        let usual = if formulation == Formulation::Eulerian { Law::Linear } else { Law::HartmannNeff };
+        let pressure = if whole.is_some() { None } else { Some(named(Role::Pressure).unwrap_or(usual)) };
+        let strength = law.filter(|law| law.role() == Role::Strength);
+        let heat = named(Role::Heat);
+        let (bulk_modulus, shear_modulus) = moduli(typed, strength.is_none() && whole.is_none())?;
+        let mut material = Self {
+            density: positive(typed.number("density").unwrap_or(0.0), "density")?,
+            bulk_modulus,
+            shear_modulus,
+            whole,
+            pressure,
+            strength,
+            heat,
+            numbers: [0.0; NUMBERS],
+        };
+        for law in material.laws() {
+            material.fill(typed, law)?;
+        }
+        material.check(typed)?;
+        Ok(material)
+    }
+
+    pub fn laws(&self) -> Vec<Law> {
+        [self.whole, self.pressure, self.strength, self.heat].into_iter().flatten().collect()
+    }
+
+    pub fn has_memory(&self) -> bool {
+        self.laws().into_iter().any(Law::has_memory)
+    }
+
+    pub fn yields(&self) -> bool {
+        self.strength.is_some_and(Law::yields)
+    }
+
+    /// Flows on under any load, so that it has no equilibrium.
+    pub fn creeps(&self) -> bool {
+        self.whole == Some(Law::Maxwell) || self.strength.is_some_and(|law| law.reads(Reads::Rate))
+    }
+
+    /// The numbers of a law to their places.
+    fn fill(&mut self, typed: &MaterialTable, law: Law) -> Result<(), String> {
+        let apart = typed.roles.get(law.role().word());
+        let given = apart.map_or(&typed.numbers, |table| &table.numbers);
+        for (k, number) in law.declaration().numbers.iter().enumerate() {
+            self.numbers[law.role().first() + k] = number_of(law, number, given.get(number.key).copied())?;
+        }
+        Ok(())
+    }
+
+    /// What the laws of the material ask of each other.
+    fn check(&self, typed: &MaterialTable) -> Result<(), String> {
+        let short = if typed.roles.contains_key(Role::Strength.word()) { None } else { self.whole.or(self.strength) };
+        let takes = |law: Law, key: &str| law.declaration().numbers.iter().any(|number| number.key == key);
+        for key in typed.numbers.keys().filter(|key| *key != "density" && !MODULI.contains(&key.as_str())) {
+            if !short.is_some_and(|law| takes(law, key)) {
+                let words = Law::ALL.iter().filter(|law| takes(**law, key)).map(|law| format!("`{}`", law.word()));
+                let words: Vec<String> = words.collect();
+                let laws = if words.len() == 1 { "law" } else { "laws" };
+                return Err(format!("has a {key}, which only the {laws} {} takes", words.join(", ")));
+            }
+        }
+        let warm = self.strength.is_some_and(|law| law.reads(Reads::Temperature));
+        if let (true, None, Some(law)) = (warm, self.heat, self.strength) {
+            return Err(format!(
+                "has the strength `{}`, which depends on the temperature: it needs a heat, such as \
+                 `heat = {{ isothermal = {{ temperature = 293 }} }}` or `{{ adiabatic = {{ temperature = 293, specific_heat = … }} }}`",
+                law.word()
+            ));
+        }
+        if self.heat.is_some() && !self.yields() {
+            return Err("has a heat, but no strength that gives way and would make any".into());
+        }
+        if self.yields() && self.row().yield_stress <= 0.0 {
+            return Err("bears no stress before it flows: its strength must be above 0 there".into());
+        }
+        Ok(())
+    }
+
+    pub fn youngs_modulus(&self) -> f64 {
+        9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
+    }
+
+    /// Speed of longitudinal waves.
+    pub fn sound_speed(&self) -> f64 {
+        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()
+    }
+
+    /// The material's part of a row in the table of bodies.
+    pub fn row(&self) -> Body<f64> {
+        let number = |law: Option<Law>| law.map_or(0, Law::number);
+        let mut row = Body {
+            whole: number(self.whole),
+            pressure: number(self.pressure),
+            strength: number(self.strength),
+            heat: number(self.heat),
+            density: self.density,
+            bulk_modulus: self.bulk_modulus,
+            shear_modulus: self.shear_modulus,
+            youngs_modulus: self.youngs_modulus(),
+            sound_speed: self.sound_speed(),
+            numbers: self.numbers,
+            ..Body::default()
+        };
+        if self.yields() {
+            // At a rate of one: at rest, a strength that creeps may bear nothing.
+            let at = Point { strain: 0.0, rate: 1.0, temperature: self.temperature() };
+            row.yield_stress = material::flow(&row, &at).stress;
+        }
+        row
+    }
+
+    /// Temperature at the start; 0 where there is none.
+    pub fn temperature(&self) -> f64 {
+        if self.heat.is_some() { self.numbers[Role::Heat.first()] } else { 0.0 }
+    }
+}
+
+/// A number of a law, as given or else its default.
+fn number_of(law: Law, number: &Number, given: Option<f64>) -> Result<f64, String> {
+    let Some(value) = given.or(number.default) else {
+        return Err(format!("has the law `{}`: it needs a {}", law.word(), number.key));
+    };
+    if number.range.holds(value) { Ok(value) } else { Err(format!("needs {}, found {value}", number.range.of(number.key))) }
+}
+
+fn positive(value: f64, what: &str) -> Result<f64, String> {
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(format!("needs a positive {what}, found {value}")) }
+}
+
+/// Bulk and shear modulus from the pair of constants that is typed, in the material or in the tables of its roles.
+fn moduli(typed: &MaterialTable, fluid: bool) -> Result<(f64, f64), String> {
+    positive(typed.number("density").unwrap_or(0.0), "density")?;
+    let apart = |role: Role, key: &str| typed.roles.get(role.word()).and_then(|table| table.numbers.get(key).copied());
+    let bulk = typed.number("bulk_modulus").or(apart(Role::Pressure, "bulk_modulus"));
+    let shear = typed.number("shear_modulus").or(apart(Role::Strength, "shear_modulus"));
+    match (typed.number("youngs_modulus"), typed.number("poisson_ratio"), bulk, shear) {
+        (None, None, Some(k), None) if fluid => Ok((positive(k, "bulk_modulus")?, 0.0)),
+        _ if fluid => Err("is a fluid: it needs bulk_modulus and no other modulus".into()),
+        (Some(e), Some(nu), None, None) => {
+            positive(e, "youngs_modulus")?;
+            if !(nu > -1.0 && nu < 0.5) {
+                return Err(format!("needs a poisson_ratio between -1 and 0.5, found {nu}"));
+            }
+            Ok((e / (3.0 * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu))))
+        }
+        (None, None, Some(k), Some(mu)) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
+        _ => Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into()),
+    }
+}
