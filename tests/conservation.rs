@@ -30,7 +30,7 @@ fn scene(name: &str, overrides: &[&str]) -> Scene {
 fn short_run(scene: &Scene, choice: &Choice) -> Option<Columns> {
     let mut backend = open(scene, choice).ok()?;
     let body = &scene.bodies[0];
-    let duration = scene.file.duration.min(CROSSINGS * body.smoothing_length / body.sound_speed());
+    let duration = scene.file.duration.min(CROSSINGS * body.smoothing_length / body.material.sound_speed());
     for (length, first) in [(0.0, true), (duration, false)] {
         backend.begin_segment(0.0, length, u32::MAX, first).expect("a segment begins");
         loop {
@@ -54,7 +54,7 @@ fn momentum_drift(scene: &Scene, columns: &Columns) -> f64 {
             change[k] += scene.mass(i) * (now[k] - particle.velocity[k]);
         }
         scale += scene.mass(i) * particle.velocity.length();
-        at_rest += scene.mass(i) * scene.bodies[particle.body as usize].sound_speed();
+        at_rest += scene.mass(i) * scene.bodies[particle.body as usize].material.sound_speed();
     }
     let scale = if scale > 0.0 { scale } else { at_rest };
     change.iter().fold(0.0, |largest: f64, c| largest.max(c.abs())) / scale

@@ -120,6 +120,40 @@ impl Law {
     }
 }
 
+impl<R: Real> Body<R> {
+    /// The same body with a law in the law's role, and the law's numbers in the order of their declaration.
+    pub fn with(mut self, law: Law, numbers: &[R]) -> Self {
+        let place = match law.role() {
+            Role::Whole => &mut self.whole,
+            Role::Pressure => &mut self.pressure,
+            Role::Strength => &mut self.strength,
+            Role::Heat => &mut self.heat,
+        };
+        *place = law.number();
+        self.numbers[law.role().first()..][..numbers.len()].copy_from_slice(numbers);
+        self
+    }
+
+    /// The same numbers in another precision.
+    pub fn map<T: Real>(&self, real: impl Fn(R) -> T) -> Body<T> {
+        Body {
+            whole: self.whole,
+            pressure: self.pressure,
+            strength: self.strength,
+            heat: self.heat,
+            density: real(self.density),
+            bulk_modulus: real(self.bulk_modulus),
+            shear_modulus: real(self.shear_modulus),
+            youngs_modulus: real(self.youngs_modulus),
+            yield_stress: real(self.yield_stress),
+            sound_speed: real(self.sound_speed),
+            smoothing_length: real(self.smoothing_length),
+            padding: real(self.padding),
+            numbers: self.numbers.map(real),
+        }
+    }
+}
+
 /// Where a strength is asked what it bears.
 #[derive(Debug, Clone, Copy)]
 pub struct Point<R> {

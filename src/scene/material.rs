@@ -340,12 +340,7 @@ impl Material {
 
     /// The material's part of a row in the table of bodies.
     pub fn row(&self) -> Body<f64> {
-        let number = |law: Option<Law>| law.map_or(0, Law::number);
         let mut row = Body {
-            whole: number(self.whole),
-            pressure: number(self.pressure),
-            strength: number(self.strength),
-            heat: number(self.heat),
             density: self.density,
             bulk_modulus: self.bulk_modulus,
             shear_modulus: self.shear_modulus,
@@ -354,6 +349,9 @@ impl Material {
             numbers: self.numbers,
             ..Body::default()
         };
+        for law in self.laws() {
+            row = row.with(law, &[]);
+        }
         if self.yields() {
             // At a rate of one: at rest, a strength that creeps may bear nothing.
             let at = Point { strain: 0.0, rate: 1.0, temperature: self.temperature() };

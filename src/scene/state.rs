@@ -379,21 +379,6 @@ fn keeps_gradients(method: &Method) -> bool {
 impl super::SceneBody {
     /// The body's row in the table of bodies.
     pub fn numbers<R: Real>(&self) -> Body<R> {
-        let (real, row) = (R::of, self.material.row());
-        Body {
-            whole: row.whole,
-            pressure: row.pressure,
-            strength: row.strength,
-            heat: row.heat,
-            density: real(row.density),
-            bulk_modulus: real(row.bulk_modulus),
-            shear_modulus: real(row.shear_modulus),
-            youngs_modulus: real(row.youngs_modulus),
-            yield_stress: real(row.yield_stress),
-            sound_speed: real(row.sound_speed),
-            smoothing_length: real(self.smoothing_length),
-            padding: real(0.0),
-            numbers: row.numbers.map(real),
-        }
+        Body { smoothing_length: self.smoothing_length, ..self.material.row() }.map(R::of)
     }
 }

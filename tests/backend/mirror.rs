@@ -48,8 +48,8 @@ fn params_mirror_the_shader_s() {
 #[test]
 fn bodies_mirror_the_shader_s() {
     assert_mirrors!(Body:
-        law, padding, density, bulk_modulus, shear_modulus, youngs_modulus, relaxation, yield_stress, hardening,
-        hardening_exponent, sound_speed, smoothing_length);
+        whole, pressure, strength, heat, density, bulk_modulus, shear_modulus, youngs_modulus, yield_stress, sound_speed,
+        smoothing_length, padding, numbers);
     assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
 }
 

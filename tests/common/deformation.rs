@@ -1,7 +1,7 @@
 //! Bodies and random deformations that the tests of the laws share.
 
 use super::Random;
-use lithosph::material::{self, Law};
+use lithosph::material::{self, Law, Memory};
 use lithosph::rows::Body;
 use lithosph::tensor::{Real, Space};
 
@@ -9,20 +9,29 @@ pub const LAWS: [Law; 4] = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwel
 
 /// The plate of Shutov & Klyuchantsev 2019; viscosity 1 where it has one, and yield at a fifth of the shear modulus.
 pub fn body<R: Real>(law: Law) -> Body<R> {
-    let relaxation = if law == Law::Maxwell { 1.25 } else { 0.0 };
-    let yield_stress = if law == Law::J2 { 0.25 } else { 0.0 };
-    Body {
-        law: law as u32,
+    let plate = Body {
         density: R::of(3.0),
         bulk_modulus: R::of(5.833),
         shear_modulus: R::of(1.25),
         youngs_modulus: R::of(3.5),
-        relaxation: R::of(relaxation),
-        yield_stress: R::of(yield_stress),
-        hardening: R::of(yield_stress),
-        hardening_exponent: R::of(1.0),
         ..Body::default()
+    };
+    match law {
+        Law::J2 => metal(plate, [0.25, 0.25, 1.0]),
+        Law::Maxwell => plate.with(law, &[R::of(1.0)]),
+        _ => plate.with(law, &[]),
     }
+}
+
+/// The same body as a metal of a yield stress, the factor of its hardening and its exponent.
+pub fn metal<R: Real>(body: Body<R>, numbers: [f64; 3]) -> Body<R> {
+    let body = Body { yield_stress: R::of(numbers[0]), ..body };
+    body.with(Law::HartmannNeff, &[]).with(Law::J2, &numbers.map(R::of))
+}
+
+/// What remembers an inelastic strain and a plastic strain.
+pub fn remembering<S: Space>(strain: S::Sym, plastic: S::Real) -> Memory<S> {
+    Memory { strain, plastic, ..Memory::default() }
 }
 
 /// H with components up to a size.
@@ -42,7 +51,7 @@ pub fn memory<S: Space>(random: &mut Random, size: f64) -> S::Sym {
     let step = S::Real::of(0.5);
     (0..3).fold(S::Sym::default(), |memory, _| {
         let h = gradient::<S>(random, size);
-        material::relax::<S>(&body, h, (memory, S::Real::of(0.0)), step).0
+        material::relax::<S>(&body, h, remembering(memory, S::Real::of(0.0)), step).strain
     })
 }
 

@@ -4,6 +4,7 @@
 use crate::common::deformation::*;
 use crate::common::matrix::{M, determinant, times};
 use lithosph::backend::Choice;
+use lithosph::material::j2::J2;
 use lithosph::material::{self, Law, Memory};
 use lithosph::rows::Body;
 use lithosph::run::{Options, run};
@@ -30,18 +31,13 @@ fn metal<R: Real>(hardening: Hardening) -> Body<R> {
         Hardening::Linear => [0.01, 1.0],
         Hardening::Power => [0.006, 0.3],
     };
-    Body {
-        bulk_modulus: R::of(1.0 / 1.2),
-        shear_modulus: R::of(1.0 / 2.6),
-        yield_stress: R::of(2e-3),
-        hardening: R::of(modulus),
-        hardening_exponent: R::of(exponent),
-        ..body(Law::J2)
-    }
+    let elastic = Body { bulk_modulus: R::of(1.0 / 1.2), shear_modulus: R::of(1.0 / 2.6), ..body(Law::J2) };
+    crate::common::deformation::metal(elastic, [2e-3, modulus, exponent])
 }
 
 fn yield_stress(body: &Body<f64>, k: f64) -> f64 {
-    body.yield_stress + body.hardening * k.powf(body.hardening_exponent)
+    let own = J2::of(body);
+    own.yield_stress + own.hardening * k.powf(own.hardening_exponent)
 }
 
 fn gradient_of<T: Space>(f: &M) -> T::Mat {
@@ -55,7 +51,7 @@ fn gradient_of<T: Space>(f: &M) -> T::Mat {
 }
 
 fn cauchy(body: &Body<f64>, h: <S as Space>::Mat, memory: &Memory<S>) -> [f64; 6] {
-    material::cauchy::<S>(body, h, memory.0).0
+    material::cauchy::<S>(body, h, memory.strain).0
 }
 
 /// Uniaxial stress q: ln of the axial stretch without plastic flow. Its isochoric part is ln(b)/2 with
@@ -125,7 +121,7 @@ impl Bar {
             (stress, self.memory) = pull(&self.body, &self.memory, self.axial, side);
         }
         self.plastic = plastic;
-        [stress * volume(&self.body, q).exp() / q - 1.0, self.memory.1 / self.k - 1.0]
+        [stress * volume(&self.body, q).exp() / q - 1.0, self.memory.plastic / self.k - 1.0]
     }
 }
 
@@ -173,7 +169,7 @@ fn walked<T: Space>(body: &Body<T::Real>, path: &dyn Fn(f64) -> M, k: f64, steps
         let h = gradient_of::<T>(&path(f64::from(step) / f64::from(steps)));
         material::relax::<T>(body, h, memory, T::Real::of(0.0))
     };
-    (1..=steps).fold((T::Sym::default(), T::Real::of(k)), walk)
+    (1..=steps).fold(remembering(T::Sym::default(), T::Real::of(k)), walk)
 }
 
 /// k before the paths: with none, the slope of a power is infinite, and its rate equations have no solver.
@@ -199,7 +195,7 @@ fn shear_and_torsion_follow_the_rate_equations() {
             let flow = Flow { body: metal(hardening), path: &path };
             let wanted = flow.run(WORKED, 4000);
             let memory = walked::<S>(&flow.body, &path, WORKED, steps);
-            let errors = [error_of(&flow, &memory, &wanted), (memory.1 / wanted.1 - 1.0).abs()];
+            let errors = [error_of(&flow, &memory, &wanted), (memory.plastic / wanted.1 - 1.0).abs()];
             println!("{name}, {hardening:?}: stress off by {:.1e}, k = {:.3} by {:.1e}", errors[0], wanted.1, errors[1]);
             assert!(errors.iter().all(|error| *error < 1e-6), "{name}, {hardening:?}: {errors:?}");
             // Of first order where the direction of stress changes.
@@ -214,9 +210,9 @@ fn a_rotation_of_the_whole_path_changes_nothing() {
     for hardening in HARDENINGS {
         let body = metal::<f64>(hardening);
         let (still, turned) = (walked::<S>(&body, &twist, 0.0, 300), walked::<S>(&body, &turning, 0.0, 300));
-        let apart = apart::<S>(S::mat_of_sym(still.0), S::mat_of_sym(turned.0));
-        assert!(apart < 1e-13 && (still.1 - turned.1).abs() < 1e-13, "{hardening:?}: {apart:e}");
-        assert!(still.1 > 0.1, "{hardening:?}: nothing flowed");
+        let apart = apart::<S>(S::mat_of_sym(still.strain), S::mat_of_sym(turned.strain));
+        assert!(apart < 1e-13 && (still.plastic - turned.plastic).abs() < 1e-13, "{hardening:?}: {apart:e}");
+        assert!(still.plastic > 0.1, "{hardening:?}: nothing flowed");
     }
 }
 
@@ -226,11 +222,15 @@ fn the_plane_is_a_slice_of_space() {
     let path = |t: f64| [[1.0 + 0.2 * t, 0.3 * t * t, 0.0], [-0.1 * t, 1.0 - 0.1 * t, 0.0], [0.0, 0.0, 1.0]];
     let line = |t: f64| [[1.0 - 0.1 * t, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let (plane, solid) = (walked::<Plane<f64>>(&body, &path, 0.0, 100), walked::<S>(&body, &path, 0.0, 100));
-    let [xx, yy, _, xy, ..] = solid.0.0;
-    assert!((plane.1 - solid.1).abs() < 1e-14 && solid.1 > 0.1);
-    assert!(plane.0.0.iter().zip([xx, yy, xy]).all(|(a, b)| (a - b).abs() < 1e-13), "{plane:?} {solid:?}");
+    let [xx, yy, _, xy, ..] = solid.strain.0;
+    assert!((plane.plastic - solid.plastic).abs() < 1e-14 && solid.plastic > 0.1);
+    assert!(plane.strain.0.iter().zip([xx, yy, xy]).all(|(a, b)| (a - b).abs() < 1e-13), "{plane:?} {solid:?}");
     let (narrow, solid) = (walked::<Line<f64>>(&body, &line, 0.0, 100), walked::<S>(&body, &line, 0.0, 100));
-    assert!((narrow.1 - solid.1).abs() < 1e-14 && (narrow.0.0[0] - solid.0.0[0]).abs() < 1e-13 && solid.1 > 0.01);
+    assert!(
+        (narrow.plastic - solid.plastic).abs() < 1e-14
+            && (narrow.strain.0[0] - solid.strain.0[0]).abs() < 1e-13
+            && solid.plastic > 0.01
+    );
 }
 
 /// Work done along a path, and stored energy and heat at its end; per volume.
@@ -240,12 +240,12 @@ fn energies(body: &Body<f64>, path: &dyn Fn(f64) -> M, steps: u32) -> [f64; 3] {
     for step in 1..=steps {
         let next_h = gradient_of::<S>(&path(f64::from(step) / f64::from(steps)));
         let next = material::relax::<S>(body, next_h, memory, 0.0);
-        let stresses = material::first_piola::<S>(body, h, memory.0) + material::first_piola::<S>(body, next_h, next.0);
+        let stresses = material::first_piola::<S>(body, h, memory.strain) + material::first_piola::<S>(body, next_h, next.strain);
         work += 0.5 * S::trace(S::mat_mat(S::transpose(stresses), next_h - h));
-        heat += material::dissipated::<S>(body, (h, memory.0), (next_h, next.0));
+        heat += material::dissipated::<S>(body, (h, memory.strain), (next_h, next.strain));
         (memory, h) = (next, next_h);
     }
-    [work, material::stored_energy::<S>(body, h, memory.0), heat]
+    [work, material::stored_energy::<S>(body, h, memory.strain), heat]
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn work_is_stored_or_plastic() {
         // Of perfect plasticity the heat is sY k.
         if matches!(hardening, Hardening::Perfect) {
             let [_, _, heat] = energies(&body, &turning, 10_000);
-            let k = walked::<S>(&body, &turning, 0.0, 10_000).1;
+            let k = walked::<S>(&body, &turning, 0.0, 10_000).plastic;
             assert!((heat / (body.yield_stress * k) - 1.0).abs() < 1e-6, "{heat} {k}");
         }
     }
@@ -333,10 +333,10 @@ fn single_precision_follows_double() {
         let wanted = walked::<S>(&wide, &turning, 0.0, 1000);
         let seen = walked::<Solid<f32>>(&narrow, &turning, 0.0, 1000);
         let h = turning(1.0);
-        let truth = material::first_piola::<S>(&wide, gradient_of::<S>(&h), wanted.0);
-        let stress = material::first_piola::<Solid<f32>>(&narrow, gradient_of::<Solid<f32>>(&h), seen.0);
+        let truth = material::first_piola::<S>(&wide, gradient_of::<S>(&h), wanted.strain);
+        let stress = material::first_piola::<Solid<f32>>(&narrow, gradient_of::<Solid<f32>>(&h), seen.strain);
         let stress = embedded::<Solid<f32>, S>(stress);
-        let errors = [apart::<S>(truth, stress) / size::<S>(truth), (seen.1.f64() / wanted.1 - 1.0).abs()];
+        let errors = [apart::<S>(truth, stress) / size::<S>(truth), (seen.plastic.f64() / wanted.plastic - 1.0).abs()];
         println!("{hardening:?}: f32 stress off by {:.1e}, k by {:.1e}", errors[0], errors[1]);
         // H of 2 holds the stretch to 1.2e-7, of an elastic strain of 2e-3.
         assert!(errors[0] < 5e-4 && errors[1] < 3e-5, "{hardening:?}: {errors:?}");

@@ -4,7 +4,7 @@
 use crate::common::deformation::body;
 use crate::common::parse;
 use lithosph::backend::Columns;
-use lithosph::material::{Law, maxwell, stored_energy};
+use lithosph::material::{Law, inelastic, stored_energy};
 use lithosph::observable::{Moment, Value, fields_of_path, fields_read, observers};
 use lithosph::particles::Field;
 use lithosph::scene::Scene;
@@ -105,7 +105,7 @@ fn energies_count_memory_and_heat() {
     let elastic = stored_energy::<Plane<f64>>(&body(Law::Maxwell), Tuple(h), Tuple(memory));
     assert!((value("elastic") - elastic).abs() < 1e-14, "{} {elastic}", value("elastic"));
     assert!((value("total") - (elastic + 3.0 * 4.0 + 3.0 * 0.7)).abs() < 1e-12);
-    let viscous = maxwell::whole::<Plane<f64>>(Tuple(memory));
+    let viscous = inelastic::whole::<Plane<f64>>(Tuple(memory));
     let determinant = ((1.1 * 0.95) - 0.03 * 0.03) * (1.0 + viscous.across);
     assert!((determinant - 1.0).abs() < 1e-15);
 }

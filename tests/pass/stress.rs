@@ -3,7 +3,8 @@
 
 use crate::common::matrix::{M, inner, plus, times, transposed};
 use crate::common::parse;
-use lithosph::material::{elastic_energy, j2};
+use lithosph::material::yielding::{self, Before, yielded};
+use lithosph::material::{Law, elastic_energy};
 use lithosph::pass::{Pass, Stage};
 use lithosph::rows::Body;
 use lithosph::state::State;
@@ -285,7 +286,7 @@ fn work_is_stored_or_plastic() {
             work += 0.5 * inner(&plus(&before, 1.0, &deviator(&state)), &l) / f64::from(steps);
         }
         let s = deviator(&state);
-        let stored = elastic_energy(BULK, SHEAR, state.particles.volumetric_strain[1], inner(&s, &s));
+        let stored = elastic_energy(&state.bodies[0], state.particles.volumetric_strain[1], inner(&s, &s));
         let heat = 2.0 * state.particles.dissipated_energy[1];
         let error = ((stored + heat) / work - 1.0).abs();
         println!("{}: stored energy and heat off the work by {error:.1e}", hardening.words);
@@ -310,7 +311,8 @@ fn single_precision_follows_double() {
 /// surface by as much as the step went beyond it, and so depends on the step.
 #[test]
 fn the_printed_scaling_misses_the_yield_surface() {
-    let body = Body { yield_stress: YIELD, shear_modulus: SHEAR, hardening_exponent: 1.0, ..Body::default() };
+    let body = Body { yield_stress: YIELD, shear_modulus: SHEAR, ..Body::default() }.with(Law::J2, &[YIELD, 0.0, 1.0]);
+    let before = Before { strain: 0.0, temperature: 0.0, volume: 1.0 };
     type S = Solid<f64>;
     // Mises stress after a shear strain of 0.1, 50 times that of yield, in so many steps.
     let sheared = |steps: u32, back: &dyn Fn(<S as Space>::Sym) -> <S as Space>::Sym| {
@@ -319,13 +321,13 @@ fn the_printed_scaling_misses_the_yield_surface() {
             stress[S::sym_index(0, 1)] += SHEAR * 0.1 / f64::from(steps);
             stress = back(stress);
         }
-        j2::mises::<S>(stress) / YIELD
+        yielding::mises::<S>(stress) / YIELD
     };
     let printed = |stress: <S as Space>::Sym| {
-        let square = j2::mises::<S>(stress).powi(2);
+        let square = yielding::mises::<S>(stress).powi(2);
         stress * (YIELD * YIELD / square).min(1.0)
     };
-    let right = |stress| j2::yielded::<S>(&body, stress, 0.0).0;
+    let right = |stress| yielded::<S>(&body, stress, before, 1.0).deviator;
     for steps in [1, 10, 100, 1000] {
         let overshoot = 3f64.sqrt() * SHEAR * 0.1 / f64::from(steps) / YIELD;
         let (wrong, right) = (sheared(steps, &printed), sheared(steps, &right));

@@ -1,6 +1,7 @@
 //! Scenes that together switch on everything: two blocks, or one in a periodic box, of at least 1000 particles.
 
 use crate::common::parse;
+use lithosph::material::{Law, Number, Role};
 use lithosph::scene::Scene;
 
 #[derive(Clone, Copy)]
@@ -142,7 +143,7 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             name: "leapfrog, j2 and elastic, heat, plain",
             units: STEEL,
             bodies: 2,
-            laws: ["j2", "elastic"],
+            laws: ["j2, perfect", "elastic"],
             formulation: "dissipated_energy = true",
             ..BARE
         },
@@ -175,7 +176,7 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             name: "fire, j2, planes",
             bodies: 2,
             planes: 1,
-            laws: ["j2", "j2, linear"],
+            laws: ["j2, perfect", "j2, linear"],
             formulation: "kind = \"total_lagrangian\"",
             time: FIRE,
             ..BARE
@@ -361,7 +362,29 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             ..BARE
         },
     ];
-    list.map(|case| Case { dimension, ..case }).to_vec()
+    let metals = Law::of_role(Role::Strength).filter(|law| law.yields()).flat_map(metals);
+    list.into_iter().chain(metals).map(|case| Case { dimension, ..case }).collect()
+}
+
+/// A strength that yields with the numbers that it declares for tests and its own heat, in both formulations.
+fn metals(strength: Law) -> [Case; 2] {
+    let name = |formulation: &str| -> &'static str { format!("{formulation}, {}, adiabatic", strength.word()).leak() };
+    let eulerian = Case {
+        name: name("leapfrog"),
+        units: STEEL,
+        bodies: 2,
+        laws: [strength.word(), "elastic"],
+        formulation: "dissipated_energy = true",
+        ..BARE
+    };
+    let lagrangian = Case {
+        name: name("lagrangian"),
+        bodies: 2,
+        laws: [strength.word(), "neo_hookean"],
+        formulation: "kind = \"total_lagrangian\"\ndissipated_energy = true",
+        ..BARE
+    };
+    [eulerian, lagrangian]
 }
 
 /// Sides of the first block, of the second, and the gap between, in spacings of the first.
@@ -402,7 +425,7 @@ impl Case {
             // Relaxes by about a tenth in a step.
             "maxwell" => format!("law = \"maxwell\"\nviscosity = {:e}\n", self.units[1] * self.moment()),
             // The random strains are of a tenth: some particles yield.
-            "j2" => format!("law = \"j2\"\nyield_stress = {:e}\n", 0.05 * self.units[1]),
+            "j2, perfect" => format!("law = \"j2\"\nyield_stress = {:e}\n", 0.05 * self.units[1]),
             "j2, linear" => {
                 let [_, modulus, _] = self.units;
                 format!("law = \"j2\"\nyield_stress = {:e}\nhardening = {{ linear = {:e} }}\n", 0.05 * modulus, 0.1 * modulus)
@@ -412,8 +435,33 @@ impl Case {
                 let hardening = format!("{{ power = {{ coefficient = {:e}, exponent = 0.3 }} }}", 0.05 * modulus);
                 format!("law = \"j2\"\nyield_stress = {:e}\nhardening = {hardening}\n", 0.02 * modulus)
             }
-            law => format!("law = \"{law}\"\n"),
+            word => match Law::named(Role::Strength, word).filter(|law| law.yields()) {
+                Some(strength) => {
+                    let (own, heat) = (self.sampled(strength), self.sampled(Law::Adiabatic));
+                    format!("strength = {{ {word} = {own} }}\nheat = {{ adiabatic = {heat} }}\n")
+                }
+                None => format!("law = \"{word}\"\n"),
+            },
         }
+    }
+
+    /// A law's numbers as it declares them for tests, in the units of the case.
+    fn sampled(&self, law: Law) -> String {
+        let [length, _, density] = self.units;
+        let scale = [length, density * length.powi(3), self.moment(), 1.0];
+        let of = |number: &Number| {
+            let unit = scale.iter().zip(number.dimensions).map(|(unit, power)| unit.powi(power.into())).product::<f64>();
+            format!("{:e}", number.sample * unit)
+        };
+        let declared = law.declaration().numbers;
+        let exponent = declared.iter().find(|number| number.key == "hardening_exponent").map(of);
+        let typed = declared.iter().filter(|number| number.key != "hardening_exponent").map(|number| match &exponent {
+            Some(power) if number.key == "hardening" => {
+                format!("hardening = {{ power = {{ coefficient = {}, exponent = {power} }} }}", of(number))
+            }
+            _ => format!("{} = {}", number.key, of(number)),
+        });
+        format!("{{ {} }}", typed.collect::<Vec<_>>().join(", "))
     }
 
     fn material(&self, name: &str, stiffer: f64) -> String {

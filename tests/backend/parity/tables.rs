@@ -119,20 +119,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         z: real(c.z),
         unused: real(c.unused),
     };
-    let body = |b: &Body<A::Real>| Body {
-        law: b.law,
-        padding: b.padding,
-        density: real(b.density),
-        bulk_modulus: real(b.bulk_modulus),
-        shear_modulus: real(b.shear_modulus),
-        youngs_modulus: real(b.youngs_modulus),
-        relaxation: real(b.relaxation),
-        yield_stress: real(b.yield_stress),
-        hardening: real(b.hardening),
-        hardening_exponent: real(b.hardening_exponent),
-        sound_speed: real(b.sound_speed),
-        smoothing_length: real(b.smoothing_length),
-    };
+    let body = |b: &Body<A::Real>| b.map(real);
     let facet_pair = |p: &FacetPair<A::Real>| FacetPair {
         stiffness: real(p.stiffness),
         range: real(p.range),
@@ -391,6 +378,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             QuadraticCoefficient => random.signed() / spacing,
             QuadraticStress => bulk * strain(random) / spacing,
             DisplacementGradient | InelasticStrain | EquilibriumInelasticStrain => 0.1 * random.signed(),
+            Temperature => 1.0 + 0.1 * random.unit(),
             EquivalentPlasticStrain | EquilibriumPlasticStrain => 0.1 * random.unit(),
             ContactEnergy | HourglassEnergy => 1e-3 * speed * speed * random.unit(),
             FacetReferencePosition | FacetReferenceNormal | FacetArea => f64::from(old),

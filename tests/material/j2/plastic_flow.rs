@@ -6,6 +6,7 @@
 
 use super::yield_stress;
 use crate::common::matrix::*;
+use lithosph::material::j2::J2;
 use lithosph::rows::Body;
 
 pub struct Flow<'a> {
@@ -36,8 +37,9 @@ impl Flow<'_> {
         let (s, q) = self.stress(b);
         let flow = scaled(&times(&s, b), 3.0 / q);
         let scale = 1.5 * self.body.shear_modulus / q;
-        let power = self.body.hardening_exponent;
-        let slope = self.body.hardening * power * k.powf(power - 1.0);
+        let own = J2::of(&self.body);
+        let power = own.hardening_exponent;
+        let slope = own.hardening * power * k.powf(power - 1.0);
         let growth = scale * inner(&s, &elastic) / (slope + scale * inner(&s, &flow));
         assert!(growth >= 0.0, "the path unloads at {t}");
         (plus(&elastic, -growth, &flow), growth)
