@@ -31,6 +31,7 @@ const QUANTITIES: &[(&str, usize, &[Field])] = &[
     ("internal_energy", 1, &[Field::InternalEnergy]),
     ("dissipated_energy", 1, &[Field::DissipatedEnergy]),
     ("equivalent_plastic_strain", 1, &[Field::EquivalentPlasticStrain]),
+    ("temperature", 1, &[Field::Temperature]),
     ("body", 1, &[]),
     ("constraint", 1, &[]),
 ];
@@ -225,6 +226,7 @@ impl<'a> Moment<'a> {
             "internal_energy" => vec![self.scalar(Field::InternalEnergy, i)],
             "dissipated_energy" => vec![self.scalar(Field::DissipatedEnergy, i)],
             "equivalent_plastic_strain" => vec![self.scalar(Field::EquivalentPlasticStrain, i)],
+            "temperature" => vec![self.scalar(Field::Temperature, i)],
             "body" => vec![f64::from(particle.body)],
             _ => vec![f64::from(particle.constraint)],
         }

@@ -3,3 +3,4 @@
 mod j2;
 mod laws;
 mod maxwell;
+mod strengths;
