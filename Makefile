@@ -18,7 +18,7 @@ demo: ## Build, let two rubber rings collide, and say where the pictures are
 
 # Parts of names in tests/ that take seconds.
 FAST := cli:: contact::list conservation::no_particle material::laws material::maxwell mirror:: observable:: obstacle:: \
-    pass:: shaders:: is_good_with of_its_own step::eulerian step::lagrangian
+    pass:: shaders:: step::eulerian step::lagrangian
 
 quick: ## While working: format, lints, unit tests, fast tests. Leaves out runs of scenes, studies, atlas, parity, and builds without HDF5
 	@.ci/setup build
@@ -26,6 +26,7 @@ quick: ## While working: format, lints, unit tests, fast tests. Leaves out runs 
 	cargo clippy --all-targets --quiet -- -D warnings
 	cargo test --quiet --lib
 	cargo test --quiet --test tests -- $(FAST)
+	cargo test --quiet --test scenes -- reads_with_each_variant
 
 test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	@.ci/setup test

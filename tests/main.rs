@@ -10,7 +10,6 @@ mod observable;
 mod obstacle;
 mod pass;
 mod run;
-mod scenes;
 mod step;
 mod structure;
 mod study;
