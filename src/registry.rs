@@ -6,9 +6,9 @@
 
 use crate::backend::shader;
 use crate::contact::Potential;
+use crate::fields::Field;
 use crate::material::Law;
 use crate::method::Method;
-use crate::particles::Field;
 use crate::pass::Pass;
 use crate::smoothing::Smoothing;
 use crate::step;

@@ -3,8 +3,8 @@
 mod corrected_kernel;
 
 use crate::contact::zones::Normals;
+use crate::fields::Field;
 use crate::method::{ArtificialForm, Density, Formulation, Gradient, Integrator, Method};
-use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
 
 fn call(pass: Pass) -> Call {
@@ -362,21 +362,23 @@ pub fn needed_fields(method: &Method) -> Vec<Field> {
     let shear = eulerian && method.shear;
     let wanted = [
         (true, &[Number, ReferencePosition, ReferenceVolume, Displacement, Velocity, Acceleration][..]),
-        (true, &[Cell, NeighborCount]),
+        (true, &[Cell, CellCount, CellStart, CellBlock, CellParticles, NeighborCount, Neighbors]),
+        (method.quasi_static.is_none(), &[BlockBound]),
+        (method.quasi_static.is_some(), &[BlockResidual]),
         (eulerian, &[VolumetricStrain, VelocityGradient]),
         (method.listed_again(), &[ListedDisplacement]),
-        (method.contact.any(), &[ContactCount]),
+        (method.contact.any(), &[ContactCount, Contacts]),
         (method.contact.with_energy(), &[ContactEnergy]),
         (method.contact.colour_field, &[ColourExcess]),
-        (method.contact.zones.is_some(), &[Surface, SurfaceNormal]),
+        (method.contact.zones.is_some(), &[Surface, SurfaceNormal, ZoneForces]),
         (method.facets(), &[FirstFacet, Field::Facets, FacetOwner, FacetReferencePosition, FacetReferenceNormal, FacetArea]),
         (method.facets(), &[FacetDisplacement, FacetNormal, FacetForce, FacetMoment, FacetPressure, FacetEnergy]),
         (method.facets(), &[ContactEnergy]),
-        (method.gap.is_some(), &[FacetContactCount, FacetPressed, FacetGap, FacetSpread, FacetPull, FacetEdge]),
+        (method.gap.is_some(), &[FacetContactCount, FacetContacts, FacetPressed, FacetGap, FacetSpread, FacetPull, FacetEdge]),
         (method.friction, &[FacetMove, FacetHeat]),
         (method.friction && method.gap.is_some(), &[FacetSlip, FacetTraction]),
         (method.friction && method.obstacles, &[FacetObstacleSlip, ObstacleMove]),
-        (method.obstacles, &[FacetLoad, FacetObstacle, ObstacleDisplacement, ObstacleVelocity, ObstacleForce]),
+        (method.obstacles, &[FacetLoad, FacetObstacle, ObstacleDisplacement, ObstacleVelocity, ObstacleForce, BlockLoad]),
         (method.hourglass, &[HourglassEnergy]),
         (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
         (!eulerian, &[DisplacementGradient]),

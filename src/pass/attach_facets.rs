@@ -9,10 +9,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut owners = std::mem::take(&mut state.particles.facet_owner);
+    let mut owners = std::mem::take(&mut state.columns.facet_owner);
     for a in 0..state.params.count as usize {
         let range = state.facets_of(a);
         owners[range].fill(a as u32);
     }
-    state.particles.facet_owner = owners;
+    state.columns.facet_owner = owners;
 }

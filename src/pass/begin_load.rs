@@ -11,9 +11,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut displacement = std::mem::take(&mut state.particles.displacement);
-    let mut equilibrium = std::mem::take(&mut state.particles.equilibrium_displacement);
-    let mut carry = std::mem::take(&mut state.particles.displacement_carry);
+    let mut displacement = std::mem::take(&mut state.columns.displacement);
+    let mut equilibrium = std::mem::take(&mut state.columns.equilibrium_displacement);
+    let mut carry = std::mem::take(&mut state.columns.displacement_carry);
     for (a, (u, before)) in displacement.iter_mut().zip(&mut equilibrium).enumerate() {
         let increment = increment(state, a, *u - *before);
         *before = *u;
@@ -22,22 +22,22 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             None => *u += increment,
         }
     }
-    state.particles.displacement = displacement;
-    state.particles.equilibrium_displacement = equilibrium;
-    state.particles.displacement_carry = carry;
-    state.particles.velocity.fill(S::Vec::default());
+    state.columns.displacement = displacement;
+    state.columns.equilibrium_displacement = equilibrium;
+    state.columns.displacement_carry = carry;
+    state.columns.velocity.fill(S::Vec::default());
     if state.method.plastic() {
-        let particles = &mut state.particles;
-        particles.equilibrium_inelastic_strain.copy_from_slice(&particles.inelastic_strain);
-        particles.equilibrium_plastic_strain.copy_from_slice(&particles.equivalent_plastic_strain);
+        let columns = &mut state.columns;
+        columns.equilibrium_inelastic_strain.copy_from_slice(&columns.inelastic_strain);
+        columns.equilibrium_plastic_strain.copy_from_slice(&columns.equivalent_plastic_strain);
     }
 }
 
 /// The last increment of what is free, and the prescribed one of what is held.
 #[inline(always)]
 fn increment<S: Space>(state: &State<S>, a: usize, mut last: S::Vec) -> S::Vec {
-    if state.method.constraints && state.particles.constraint[a] != 0 {
-        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+    if state.method.constraints && state.columns.constraint[a] != 0 {
+        let constraint = &state.constraints[state.columns.constraint[a] as usize - 1];
         let from = state.clock.start;
         let time = state.course_integral(constraint, from, from + state.clock.duration);
         let vector = [constraint.x, constraint.y, constraint.z];

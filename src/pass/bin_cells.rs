@@ -28,7 +28,7 @@ pub fn cell_of<S: Space>(params: &Params<S::Real>, x: S::Vec) -> [u32; 3] {
 /// Where a particle is, or was in the reference configuration.
 #[inline(always)]
 pub fn place<S: Space>(state: &State<S>, i: usize, stage: Stage) -> S::Vec {
-    if stage.reference { state.particles.reference_position[i] } else { state.position(i) }
+    if stage.reference { state.columns.reference_position[i] } else { state.position(i) }
 }
 
 pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
@@ -36,13 +36,13 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         return;
     }
     let params = state.params;
-    let mut cells = std::mem::take(&mut state.particles.cell);
+    let mut cells = std::mem::take(&mut state.columns.cell);
     super::write(&mut cells, |i, slot| {
         let [x, y, z] = cell_of::<S>(&params, place(state, i, stage));
         *slot = (z * params.cells_y + y) * params.cells_x + x;
     });
     for &cell in &cells {
-        state.cell_count[cell as usize] += 1;
+        state.columns.cell_count[cell as usize] += 1;
     }
-    state.particles.cell = cells;
+    state.columns.cell = cells;
 }

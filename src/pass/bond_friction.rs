@@ -18,11 +18,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let mut sums = vec![(S::Vec::default(), S::Real::of(0.0)); state.params.count as usize];
     with_bonds!(state, B => super::write(&mut sums, |a, slot| *slot = sum::<S, B>(state, a)));
-    let particles = &mut state.particles;
+    let columns = &mut state.columns;
     for (a, (acceleration, power)) in sums.into_iter().enumerate() {
-        particles.acceleration[a] += acceleration;
+        columns.acceleration[a] += acceleration;
         if state.method.dissipated_power() {
-            particles.dissipated_power[a] = power;
+            columns.dissipated_power[a] = power;
         }
     }
 }
@@ -60,7 +60,7 @@ fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, 
 /// v_b - v_a, the neighbour's velocity mirrored if it is an image.
 #[inline(always)]
 fn velocity_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
-    let velocity = &state.particles.velocity;
+    let velocity = &state.columns.velocity;
     let mut v_b = velocity[bond.b];
     if B::IMAGES && bond.image != 0 {
         v_b = mirror_vector::<S>(&state.params, bond.image, v_b);

@@ -10,14 +10,14 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
+    let mut stresses = std::mem::take(&mut state.columns.bond_stress);
     super::write(&mut stresses, |a, stress| {
         let mut touched = state.facets_of(a).filter(|&e| state.facet_touched(e)).peekable();
         if touched.peek().is_some() {
-            let sum = touched.fold(S::Mat::default(), |sum, e| sum + state.particles.facet_moment[e]);
-            let mean = sum * (S::Real::of(1.0) / state.particles.reference_volume[a]);
+            let sum = touched.fold(S::Mat::default(), |sum, e| sum + state.columns.facet_moment[e]);
+            let mean = sum * (S::Real::of(1.0) / state.columns.reference_volume[a]);
             *stress += corrected(state, a, &mean);
         }
     });
-    state.particles.bond_stress = stresses;
+    state.columns.bond_stress = stresses;
 }

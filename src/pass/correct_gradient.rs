@@ -10,9 +10,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut corrections = std::mem::take(&mut state.particles.correction);
+    let mut corrections = std::mem::take(&mut state.columns.correction);
     super::write(&mut corrections, |a, slot| *slot = safe_inverse::<S>(moment(state, a)));
-    state.particles.correction = corrections;
+    state.columns.correction = corrections;
 }
 
 #[inline(always)]

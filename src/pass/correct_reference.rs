@@ -8,11 +8,11 @@ use crate::state::State;
 use crate::tensor::Space;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    let mut corrections = std::mem::take(&mut state.particles.reference_correction);
+    let mut corrections = std::mem::take(&mut state.columns.reference_correction);
     with_bonds!(state, B => {
         super::write(&mut corrections, |a, slot| *slot = S::sym_part(inverse_or::<S>(moment::<S, B>(state, a), S::mat_identity())));
     });
-    state.particles.reference_correction = corrections;
+    state.columns.reference_correction = corrections;
 }
 
 #[inline(always)]

@@ -22,8 +22,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     // Where nothing else comes between deformation and stress, one loop does both.
     let at_once = !state.method.memory() && state.method.gradient != Gradient::Quadratic;
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
-    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
+    let mut gradients = std::mem::take(&mut state.columns.displacement_gradient);
+    let mut stresses = std::mem::take(&mut state.columns.bond_stress);
     let heats = state.method.memory() && state.method.dissipated_energy;
     let before = if heats { gradients.clone() } else { Vec::new() };
     with_bonds!(state, B => {
@@ -40,17 +40,17 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             }
         });
     });
-    state.particles.displacement_gradient = gradients;
+    state.columns.displacement_gradient = gradients;
     if at_once {
-        state.particles.bond_stress = stresses;
+        state.columns.bond_stress = stresses;
         return;
     }
     relax(state, &before);
     super::write(&mut stresses, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
-    state.particles.bond_stress = stresses;
-    let mut stresses = std::mem::take(&mut state.particles.quadratic_stress);
-    super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.particles.quadratic_coefficient[a]));
-    state.particles.quadratic_stress = stresses;
+    state.columns.bond_stress = stresses;
+    let mut stresses = std::mem::take(&mut state.columns.quadratic_stress);
+    super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.columns.quadratic_coefficient[a]));
+    state.columns.quadratic_stress = stresses;
 }
 
 /// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
@@ -60,23 +60,23 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
     }
     let step = state.clock.step;
     let mut memories = vec![(S::Sym::default(), S::Real::of(0.0)); state.params.count as usize];
-    let gradients = &state.particles.displacement_gradient;
+    let gradients = &state.columns.displacement_gradient;
     super::write(&mut memories, |a, memory| {
         *memory = material::relax::<S>(state.body(a), gradients[a], remembered(state, a), step);
     });
     if !before.is_empty() {
-        let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
+        let mut heats = std::mem::take(&mut state.columns.dissipated_energy);
         super::write(&mut heats, |a, heat| {
-            let (body, old) = (state.body(a), state.particles.inelastic_strain[a]);
+            let (body, old) = (state.body(a), state.columns.inelastic_strain[a]);
             let of_step =
-                material::dissipated::<S>(body, (before[a], old), (state.particles.displacement_gradient[a], memories[a].0));
+                material::dissipated::<S>(body, (before[a], old), (state.columns.displacement_gradient[a], memories[a].0));
             *heat += of_step * (S::Real::of(1.0) / body.density);
         });
-        state.particles.dissipated_energy = heats;
+        state.columns.dissipated_energy = heats;
     }
     for (a, (strain, plastic)) in memories.into_iter().enumerate() {
-        state.particles.inelastic_strain[a] = strain;
-        if let Some(slot) = state.particles.equivalent_plastic_strain.get_mut(a) {
+        state.columns.inelastic_strain[a] = strain;
+        if let Some(slot) = state.columns.equivalent_plastic_strain.get_mut(a) {
             *slot = plastic;
         }
     }
@@ -86,11 +86,11 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
 /// begins at the last equilibrium.
 #[inline(always)]
 fn remembered<S: Space>(state: &State<S>, a: usize) -> Memory<S> {
-    let particles = &state.particles;
+    let columns = &state.columns;
     let (strains, plastic) = if state.method.quasi_static.is_some() {
-        (&particles.equilibrium_inelastic_strain, &particles.equilibrium_plastic_strain)
+        (&columns.equilibrium_inelastic_strain, &columns.equilibrium_plastic_strain)
     } else {
-        (&particles.inelastic_strain, &particles.equivalent_plastic_strain)
+        (&columns.inelastic_strain, &columns.equivalent_plastic_strain)
     };
     (strains[a], plastic.get(a).copied().unwrap_or_default())
 }
@@ -120,9 +120,9 @@ fn quadratic_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize, first:
             second += S::tri_outer(displacement_difference::<S, B>(state, a, &bond), products);
         }
     }
-    let particles = &state.particles;
-    let linear = S::mat_mat(*first, S::mat_of_sym(particles.linear_coefficient[a]));
-    linear + S::tri_tri(second, particles.quadratic_coefficient[a])
+    let columns = &state.columns;
+    let linear = S::mat_mat(*first, S::mat_of_sym(columns.linear_coefficient[a]));
+    linear + S::tri_tri(second, columns.quadratic_coefficient[a])
 }
 
 /// M K_a^-1. Out of line, so that the sums of the loop over bonds stay in vector registers.
@@ -131,26 +131,26 @@ pub(super) fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::
     if state.method.gradient == Gradient::Plain {
         return *m;
     }
-    S::mat_mat(*m, S::mat_of_sym(state.particles.reference_correction[a]))
+    S::mat_mat(*m, S::mat_of_sym(state.columns.reference_correction[a]))
 }
 
 /// P_a
 #[inline(always)]
 fn piola<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
-    let memory = state.particles.inelastic_strain.get(a).copied().unwrap_or_default();
+    let memory = state.columns.inelastic_strain.get(a).copied().unwrap_or_default();
     material::first_piola::<S>(state.body(a), gradient, memory)
 }
 
 #[inline(always)]
 fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    piola(state, a, state.particles.displacement_gradient[a])
+    piola(state, a, state.columns.displacement_gradient[a])
 }
 
 /// P_a K_a^-1, or P_a C1
 #[inline(always)]
 fn bond_stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     if state.method.gradient == Gradient::Quadratic {
-        return S::mat_mat(stress(state, a), S::mat_of_sym(state.particles.linear_coefficient[a]));
+        return S::mat_mat(stress(state, a), S::mat_of_sym(state.columns.linear_coefficient[a]));
     }
     corrected(state, a, &stress(state, a))
 }

@@ -11,19 +11,19 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
+    let mut gradients = std::mem::take(&mut state.columns.displacement_gradient);
     if state.method.list_follows() {
         super::write(&mut gradients, |a, slot| *slot = sum_kept(state, a));
     } else {
         super::write(&mut gradients, |a, slot| *slot = sum_nodes(state, a));
     }
-    state.particles.displacement_gradient = gradients;
+    state.columns.displacement_gradient = gradients;
 }
 
 /// u_b - u_a
 #[inline(always)]
 fn difference<S: Space>(state: &State<S>, a: usize, b: usize, image: u32) -> S::Vec {
-    seen(state, image, state.particles.displacement[b]) - state.particles.displacement[a]
+    seen(state, image, state.columns.displacement[b]) - state.columns.displacement[a]
 }
 
 #[inline(always)]
@@ -41,10 +41,10 @@ fn sum_nodes<S: Space>(state: &State<S>, a: usize) -> S::Mat {
 fn sum_kept<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let count = state.params.count as usize;
     let mut sum = S::Mat::default();
-    for k in 0..state.particles.kept_count[a] as usize {
-        let entry = state.kept_neighbors[k * count + a];
+    for k in 0..state.columns.kept_count[a] as usize {
+        let entry = state.columns.kept_neighbors[k * count + a];
         let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
-        sum += S::outer(difference(state, a, b, image), state.kept_gradients[k * count + a]);
+        sum += S::outer(difference(state, a, b, image), state.columns.kept_gradients[k * count + a]);
     }
     sum
 }

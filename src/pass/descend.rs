@@ -10,9 +10,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut displacement = std::mem::take(&mut state.particles.displacement);
-    let mut velocity = std::mem::take(&mut state.particles.velocity);
-    let mut carry = std::mem::take(&mut state.particles.displacement_carry);
+    let mut displacement = std::mem::take(&mut state.columns.displacement);
+    let mut velocity = std::mem::take(&mut state.columns.velocity);
+    let mut carry = std::mem::take(&mut state.columns.displacement_carry);
     let advance = |a: usize, v: &mut S::Vec| {
         let before = *v;
         *v = before * state.balance.keep + unbalanced(state, a) * state.balance.push;
@@ -25,7 +25,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             compensated_add::<S>(u, &mut carry[a], advance(a, v));
         }
     }
-    state.particles.displacement = displacement;
-    state.particles.velocity = velocity;
-    state.particles.displacement_carry = carry;
+    state.columns.displacement = displacement;
+    state.columns.velocity = velocity;
+    state.columns.displacement_carry = carry;
 }

@@ -15,18 +15,18 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
+    let mut gradients = std::mem::take(&mut state.columns.displacement_gradient);
     if state.method.staged() {
-        let mut rates = std::mem::take(&mut state.particles.displacement_gradient_rate);
+        let mut rates = std::mem::take(&mut state.columns.displacement_gradient_rate);
         super::write(&mut rates, |a, slot| *slot = before::<S>(velocity_gradient(state, a), gradients[a]));
-        state.particles.displacement_gradient_rate = rates;
+        state.columns.displacement_gradient_rate = rates;
     } else {
         super::write(&mut gradients, |a, slot| {
             let turn = exponential_less_one::<S>(velocity_gradient(state, a) * state.clock.step);
             *slot += before::<S>(turn, *slot);
         });
     }
-    state.particles.displacement_gradient = gradients;
+    state.columns.displacement_gradient = gradients;
 }
 
 /// A F = A + A H
@@ -47,7 +47,7 @@ fn exponential_less_one<S: Space>(a: S::Mat) -> S::Mat {
 
 #[inline(always)]
 fn velocity_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    let velocity = &state.particles.velocity;
+    let velocity = &state.columns.velocity;
     let printed = state.method.corrected_kernel.is_some_and(|sums| sums.velocity_gradient == VelocityGradient::Printed);
     let own = if printed { S::Vec::default() } else { velocity[a] };
     let shape = Shape::of(state, a);

@@ -10,9 +10,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     for i in 0..state.params.count {
-        let cell = state.particles.cell[i as usize] as usize;
-        state.cell_count[cell] -= 1;
-        let place = state.cell_start[cell] + state.cell_count[cell];
-        state.cell_particles[place as usize] = i;
+        let cell = state.columns.cell[i as usize] as usize;
+        state.columns.cell_count[cell] -= 1;
+        let place = state.columns.cell_start[cell] + state.columns.cell_count[cell];
+        state.columns.cell_particles[place as usize] = i;
     }
 }

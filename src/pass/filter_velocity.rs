@@ -9,11 +9,11 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut velocity = std::mem::take(&mut state.particles.velocity);
+    let mut velocity = std::mem::take(&mut state.columns.velocity);
     super::write(&mut velocity, |a, slot| {
-        if !state.method.constraints || state.particles.constraint[a] == 0 {
-            *slot = state.particles.smoothed_velocity[a];
+        if !state.method.constraints || state.columns.constraint[a] == 0 {
+            *slot = state.columns.smoothed_velocity[a];
         }
     });
-    state.particles.velocity = velocity;
+    state.columns.velocity = velocity;
 }

@@ -17,7 +17,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
-    let mut counts = std::mem::take(&mut state.particles.contact_count);
+    let mut counts = std::mem::take(&mut state.columns.contact_count);
     // What a chunk has found lies together; few particles find any.
     let mut found: Vec<Option<Vec<u32>>> = vec![None; counts.len().div_ceil(CHUNK)];
     let chunks = Wide { entries: &mut counts[..], width: CHUNK };
@@ -31,12 +31,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         let mut rest = list.iter();
         for a in (first..count.min(first + CHUNK)).take_while(|_| !list.is_empty()) {
             for (k, &b) in rest.by_ref().take(counts[a] as usize).enumerate() {
-                state.contacts[k * count + a] = b;
+                state.columns.contacts[k * count + a] = b;
             }
         }
     }
-    state.particles.contact_count = counts;
-    state.particles.listed_displacement.clone_from(&state.particles.displacement);
+    state.columns.contact_count = counts;
+    state.columns.listed_displacement.clone_from(&state.columns.displacement);
 }
 
 /// The lists of a chunk of particles, one after the other, and their lengths; None if one is too long.

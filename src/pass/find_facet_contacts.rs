@@ -15,8 +15,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
-    let mut contacts = std::mem::take(&mut state.facet_contacts);
-    let mut counts = std::mem::take(&mut state.particles.facet_contact_count);
+    let mut contacts = std::mem::take(&mut state.columns.facet_contacts);
+    let mut counts = std::mem::take(&mut state.columns.facet_contact_count);
     let (total, capacity) = (state.params.facet_count as usize, state.params.facet_capacity as usize);
     let mut found = vec![Vec::new(); total];
     super::write(&mut found, |e, list| *list = list_one(state, e));
@@ -30,13 +30,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if full {
         state.clock.fault = Fault::ListFull as u32;
     }
-    state.facet_contacts = contacts;
-    state.particles.facet_contact_count = counts;
+    state.columns.facet_contacts = contacts;
+    state.columns.facet_contact_count = counts;
 }
 
 fn list_one<S: Space>(state: &State<S>, e: usize) -> Vec<u32> {
     let mut list = Vec::new();
-    let columns = &state.particles;
+    let columns = &state.columns;
     let reach = state.params.facet_reach;
     let position = columns.facet_reference_position[e] + columns.facet_displacement[e];
     visit_cells::<S>(state, position, |b| {
@@ -56,11 +56,11 @@ fn list_one<S: Space>(state: &State<S>, e: usize) -> Vec<u32> {
 
 /// Whether the facets of particle b may touch facet e.
 fn may_touch<S: Space>(state: &State<S>, e: usize, b: usize) -> bool {
-    let a = state.particles.facet_owner[e] as usize;
+    let a = state.columns.facet_owner[e] as usize;
     if state.facet_pair(a, b).stiffness == S::Real::of(0.0) {
         return false;
     }
-    let apart = state.particles.reference_position[a] - state.particles.reference_position[b];
+    let apart = state.columns.reference_position[a] - state.columns.reference_position[b];
     let least = state.params.contact_apart;
     state.body_index(a) != state.body_index(b) || S::inner(apart, apart) > least * least
 }

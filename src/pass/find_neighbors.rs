@@ -15,8 +15,8 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         return;
     }
     let capacity = state.params.list_capacity as usize;
-    let mut neighbors = std::mem::take(&mut state.neighbors);
-    let mut counts = std::mem::take(&mut state.particles.neighbor_count);
+    let mut neighbors = std::mem::take(&mut state.columns.neighbors);
+    let mut counts = std::mem::take(&mut state.columns.neighbor_count);
     let fault = AtomicU32::new(0);
     let lists = Wide { entries: &mut neighbors[..], width: capacity };
     write_rows((lists, &mut counts[..]), 64, |a, (row, count)| {
@@ -25,11 +25,11 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
             0
         });
     });
-    state.neighbors = neighbors;
-    state.particles.neighbor_count = counts;
+    state.columns.neighbors = neighbors;
+    state.columns.neighbor_count = counts;
     if !stage.reference {
-        let particles = &mut state.particles;
-        particles.listed_displacement.clone_from(&particles.displacement);
+        let columns = &mut state.columns;
+        columns.listed_displacement.clone_from(&columns.displacement);
     }
     if fault.into_inner() != 0 {
         state.clock.fault = Fault::ListFull as u32;
@@ -98,8 +98,9 @@ pub fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl F
                 let start = wrap(first, params.cells_x);
                 let width = (last - first).min((params.cells_x - 1 - start) as i32) as u32;
                 let cells = (row + start) as usize;
-                let particles = state.cell_start[cells] as usize..state.cell_start[cells + width as usize + 1] as usize;
-                for &b in &state.cell_particles[particles] {
+                let columns = &state.columns;
+                let places = columns.cell_start[cells] as usize..columns.cell_start[cells + width as usize + 1] as usize;
+                for &b in &columns.cell_particles[places] {
                     visit(b)?;
                 }
                 first += width as i32 + 1;

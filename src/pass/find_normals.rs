@@ -13,13 +13,13 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut normals = std::mem::take(&mut state.particles.surface_normal);
+    let mut normals = std::mem::take(&mut state.columns.surface_normal);
     super::write(&mut normals, |a, slot| *slot = normal(state, a, stage));
-    state.particles.surface_normal = normals;
+    state.columns.surface_normal = normals;
 }
 
 fn normal<S: Space>(state: &State<S>, a: usize, stage: Stage) -> S::Vec {
-    let surface = &state.particles.surface;
+    let surface = &state.columns.surface;
     if surface[a] == 0 {
         return S::Vec::default();
     }

@@ -12,9 +12,9 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut surface = std::mem::take(&mut state.particles.surface);
+    let mut surface = std::mem::take(&mut state.columns.surface);
     super::write(&mut surface, |a, slot| *slot = kind_of(state, a, stage));
-    state.particles.surface = surface;
+    state.columns.surface = surface;
 }
 
 fn kind_of<S: Space>(state: &State<S>, a: usize, stage: Stage) -> u32 {

@@ -11,9 +11,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut energies = std::mem::take(&mut state.particles.hourglass_energy);
+    let mut energies = std::mem::take(&mut state.columns.hourglass_energy);
     with_bonds!(state, B => super::write(&mut energies, |a, slot| *slot = energy::<S, B>(state, a)));
-    state.particles.hourglass_energy = energies;
+    state.columns.hourglass_energy = energies;
 }
 
 fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
@@ -27,5 +27,5 @@ fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
             sum += S::inner(stray, stray) * (S::Real::of(-1.0) * bond.row.weight);
         }
     }
-    S::Real::of(0.5) * hourglass_stiffness(state, a) * state.particles.reference_volume[a] * sum
+    S::Real::of(0.5) * hourglass_stiffness(state, a) * state.columns.reference_volume[a] * sum
 }

@@ -20,10 +20,10 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     for (a, row) in rows.iter().enumerate() {
         // The last is a itself, from which nothing differs.
         let entries: Vec<u32> = state.neighbors_of(a).to_vec();
-        state.particles.kept_count[a] = entries.len() as u32;
+        state.columns.kept_count[a] = entries.len() as u32;
         for (k, (&entry, &gradient)) in entries.iter().zip(row).enumerate() {
-            state.kept_neighbors[k * count + a] = entry;
-            state.kept_gradients[k * count + a] = gradient;
+            state.columns.kept_neighbors[k * count + a] = entry;
+            state.columns.kept_gradients[k * count + a] = gradient;
         }
     }
 }

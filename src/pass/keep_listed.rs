@@ -8,6 +8,6 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 || state.clock.rebuild == 0 {
         return;
     }
-    let particles = &mut state.particles;
-    particles.listed_displacement.clone_from(&particles.displacement);
+    let columns = &mut state.columns;
+    columns.listed_displacement.clone_from(&columns.displacement);
 }

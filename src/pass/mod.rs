@@ -75,13 +75,13 @@ pub enum Domain {
     Listed,
     /// One invocation a facet.
     Facets,
-    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] facets.
+    /// One workgroup of 256 for each [`crate::fields::REDUCTION_BLOCK`] facets.
     FacetBlocks,
     /// One invocation a cell.
     Cells,
-    /// One workgroup of 256 for each [`crate::rows::SCAN_BLOCK`] cells.
+    /// One workgroup of 256 for each [`crate::fields::SCAN_BLOCK`] cells.
     ScanBlocks,
-    /// One workgroup of 256 for each [`crate::rows::REDUCTION_BLOCK`] particles.
+    /// One workgroup of 256 for each [`crate::fields::REDUCTION_BLOCK`] particles.
     ReductionBlocks,
     /// One workgroup of 256.
     One,

@@ -11,9 +11,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut displacements = std::mem::take(&mut state.particles.facet_displacement);
-    let mut moves = std::mem::take(&mut state.particles.facet_move);
-    let mut normals = std::mem::take(&mut state.particles.facet_normal);
+    let mut displacements = std::mem::take(&mut state.columns.facet_displacement);
+    let mut moves = std::mem::take(&mut state.columns.facet_move);
+    let mut normals = std::mem::take(&mut state.columns.facet_normal);
     // Facets of one particle follow each other: what they share is found once.
     let carrier = || Carrier::<S> { particle: usize::MAX, turn: S::Mat::default() };
     let places = (&mut displacements[..], &mut normals[..]);
@@ -34,10 +34,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             }
         });
     }
-    state.particles.facet_displacement = displacements;
-    state.particles.facet_move = moves;
-    state.particles.facet_normal = normals;
-    state.particles.facet_pressed.fill(0);
+    state.columns.facet_displacement = displacements;
+    state.columns.facet_move = moves;
+    state.columns.facet_normal = normals;
+    state.columns.facet_pressed.fill(0);
 }
 
 /// What turns the normals of a particle's facets, the cofactors of F.
@@ -49,12 +49,12 @@ struct Carrier<S: Space> {
 /// Displacement and normal of a facet.
 #[inline(always)]
 fn seat<S: Space>(state: &State<S>, e: usize, carrier: &mut Carrier<S>) -> (S::Vec, S::Vec) {
-    let a = state.particles.facet_owner[e] as usize;
-    let gradient = state.particles.displacement_gradient[a];
+    let a = state.columns.facet_owner[e] as usize;
+    let gradient = state.columns.displacement_gradient[a];
     if carrier.particle != a {
         *carrier = Carrier { particle: a, turn: S::transpose(S::adjugate(S::mat_identity() + gradient)) };
     }
-    let displacement = state.particles.displacement[a] + S::mat_vec(gradient, lever(state, e));
-    let normal = S::mat_vec(carrier.turn, state.particles.facet_reference_normal[e]);
+    let displacement = state.columns.displacement[a] + S::mat_vec(gradient, lever(state, e));
+    let normal = S::mat_vec(carrier.turn, state.columns.facet_reference_normal[e]);
     (displacement, normal * (S::Real::of(1.0) / S::inner(normal, normal).sqrt()))
 }

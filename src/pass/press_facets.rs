@@ -27,28 +27,28 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut forces = std::mem::take(&mut state.particles.facet_force);
-    let mut moments = std::mem::take(&mut state.particles.facet_moment);
+    let mut forces = std::mem::take(&mut state.columns.facet_force);
+    let mut moments = std::mem::take(&mut state.columns.facet_moment);
     write_rows((&mut forces[..], &mut moments[..]), GRAIN, |e, (force, moment)| {
-        (*force, *moment) = if state.particles.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
+        (*force, *moment) = if state.columns.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
     });
-    state.particles.facet_force = forces;
-    state.particles.facet_moment = moments;
+    state.columns.facet_force = forces;
+    state.columns.facet_moment = moments;
 }
 
 fn load<S: Space>(state: &State<S>, e: usize) -> (S::Vec, S::Mat) {
-    let a = state.particles.facet_owner[e] as usize;
-    let deformation = S::mat_identity() + state.particles.displacement_gradient[a];
+    let a = state.columns.facet_owner[e] as usize;
+    let deformation = S::mat_identity() + state.columns.displacement_gradient[a];
     let inverse = S::adjugate(deformation) * (S::Real::of(1.0) / S::determinant(deformation));
     let load = sum(state, e, inverse);
-    let normal = state.particles.facet_normal[e];
+    let normal = state.columns.facet_normal[e];
     let turning = load.turning - normal * S::inner(load.turning, normal);
     let moment = S::outer(normal, S::mat_vec(inverse, turning)) - S::outer(load.force, lever(state, e));
     (load.force, moment + load.aside)
 }
 
 fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let (total, zero) = (state.params.facet_count as usize, S::Real::of(0.0));
     let a = columns.facet_owner[e] as usize;
     let mut load = LoadIn::<S>::default();
@@ -56,7 +56,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
         load.force += columns.facet_traction[e];
     }
     for k in 0..columns.facet_contact_count[e] as usize {
-        let f = state.facet_contacts[k * total + e] as usize;
+        let f = state.columns.facet_contacts[k * total + e] as usize;
         if columns.facet_pull[e] == zero && columns.facet_pull[f] == zero {
             continue;
         }
@@ -77,7 +77,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
 /// Adds the force of facet f on e.
 #[inline(always)]
 fn press<S: Space>(state: &State<S>, (e, f): (usize, usize), facing: &Facing<S>, load: &mut LoadIn<S>) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let (own, other) = (columns.facet_normal[e], columns.facet_normal[f]);
     let (pull, pulled) = (columns.facet_pull[e], columns.facet_pull[f]);
     let x = facing.x;

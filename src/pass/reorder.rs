@@ -9,7 +9,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let order = std::mem::take(&mut state.cell_particles);
-    state.particles.reorder(&order);
-    state.cell_particles = order;
+    let order = std::mem::take(&mut state.columns.cell_particles);
+    state.columns.reorder(&order);
+    state.columns.cell_particles = order;
 }

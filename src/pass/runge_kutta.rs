@@ -50,7 +50,7 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     }
     let step = state.clock.step;
     motion(state, stage);
-    let p = &mut state.particles;
+    let p = &mut state.columns;
     let stress_rate = &p.deviatoric_stress_rate;
     advance(
         &mut p.deviatoric_stress,
@@ -107,7 +107,7 @@ fn motion<S: Space>(state: &mut State<S>, stage: Stage) {
     let (time, next_time) = (now, now + S::Real::of(stage.time) * step);
     for a in 0..state.params.count as usize {
         let rates = (moving_velocity(state, a), acceleration(state, a, time));
-        let p = &mut state.particles;
+        let p = &mut state.columns;
         let (u, du) = next(p.displacement[a], &mut p.displacement_start[a], &mut p.displacement_sum[a], rates.0, step, stage);
         let (v, dv) = next(p.velocity[a], &mut p.velocity_start[a], &mut p.velocity_sum[a], rates.1, step, stage);
         (p.displacement[a], p.velocity[a]) = (u, v);
@@ -116,6 +116,6 @@ fn motion<S: Space>(state: &mut State<S>, stage: Stage) {
             compensated_add::<S>(&mut p.displacement[a], &mut p.displacement_carry[a], du);
             compensated_add::<S>(&mut p.velocity[a], &mut p.velocity_carry[a], dv);
         }
-        state.particles.velocity[a] = prescribe(state, a, state.particles.velocity[a], next_time);
+        state.columns.velocity[a] = prescribe(state, a, state.columns.velocity[a], next_time);
     }
 }

@@ -2,7 +2,7 @@
 //! Twin: shaders/pass/scan_cells.wgsl
 
 use super::Stage;
-use crate::rows::SCAN_BLOCK;
+use crate::fields::SCAN_BLOCK;
 use crate::state::State;
 use crate::tensor::Space;
 
@@ -11,13 +11,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut total = 0;
-    for (block, counts) in state.cell_count.chunks(SCAN_BLOCK).enumerate() {
-        state.cell_block[block] = total;
+    for (block, counts) in state.columns.cell_count.chunks(SCAN_BLOCK).enumerate() {
+        state.columns.cell_block[block] = total;
         for (k, count) in counts.iter().enumerate() {
-            state.cell_start[block * SCAN_BLOCK + k] = total;
+            state.columns.cell_start[block * SCAN_BLOCK + k] = total;
             total += count;
         }
     }
     let cells = state.params.cell_total as usize;
-    state.cell_start[cells] = total;
+    state.columns.cell_start[cells] = total;
 }

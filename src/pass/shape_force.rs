@@ -16,9 +16,9 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
     super::write(&mut accelerations, |a, slot| *slot = sum(state, a, stage.reference));
-    state.particles.acceleration = accelerations;
+    state.columns.acceleration = accelerations;
 }
 
 #[inline(always)]
@@ -28,7 +28,7 @@ fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
         sum += pull(state, &node);
     }
     // What volume the particle has now for each of its reference volume.
-    let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.particles.volumetric_strain[a] };
+    let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.columns.volumetric_strain[a] };
     sum * (-volume / state.body(a).density)
 }
 
@@ -38,6 +38,6 @@ fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
 fn pull<S: Space>(state: &State<S>, node: &Node<S>) -> S::Vec {
     let from_a = seen(state, node.image, node.x * S::Real::of(-1.0));
     let gradient = Shape::of(state, node.b).gradient(from_a, node.weight, node.slope);
-    let force = S::mat_vec(state.particles.shape_stress[node.b], gradient);
-    seen(state, node.image, force) * (state.particles.reference_volume[node.b] * node.coupled)
+    let force = S::mat_vec(state.columns.shape_stress[node.b], gradient);
+    seen(state, node.image, force) * (state.columns.reference_volume[node.b] * node.coupled)
 }

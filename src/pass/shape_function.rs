@@ -12,7 +12,7 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     }
     let mut shapes = vec![Shape::<S>::bare(); state.params.count as usize];
     super::write(&mut shapes, |a, slot| *slot = correct(state, a, stage.reference));
-    let p = &mut state.particles;
+    let p = &mut state.columns;
     for (a, shape) in shapes.into_iter().enumerate() {
         p.shape_factor[a] = shape.factor;
         p.shape_slope[a] = shape.slope;

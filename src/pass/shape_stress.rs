@@ -13,24 +13,24 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let step = state.clock.step;
-    let mut memories = std::mem::take(&mut state.particles.inelastic_strain);
-    let gradients = &state.particles.displacement_gradient;
+    let mut memories = std::mem::take(&mut state.columns.inelastic_strain);
+    let gradients = &state.columns.displacement_gradient;
     super::write(&mut memories, |a, memory| {
         *memory = material::relax::<S>(state.body(a), gradients[a], (*memory, S::Real::of(0.0)), step).0;
     });
-    state.particles.inelastic_strain = memories;
-    let mut stresses = std::mem::take(&mut state.particles.shape_stress);
+    state.columns.inelastic_strain = memories;
+    let mut stresses = std::mem::take(&mut state.columns.shape_stress);
     super::write(&mut stresses, |a, slot| *slot = stress(state, a));
-    state.particles.shape_stress = stresses;
-    let mut strains = std::mem::take(&mut state.particles.volumetric_strain);
-    super::write(&mut strains, |a, slot| *slot = strain::volume_change::<S>(state.particles.displacement_gradient[a]));
-    state.particles.volumetric_strain = strains;
+    state.columns.shape_stress = stresses;
+    let mut strains = std::mem::take(&mut state.columns.volumetric_strain);
+    super::write(&mut strains, |a, slot| *slot = strain::volume_change::<S>(state.columns.displacement_gradient[a]));
+    state.columns.volumetric_strain = strains;
 }
 
 #[inline(always)]
 fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    let gradient = state.particles.displacement_gradient[a];
-    let memory = state.particles.inelastic_strain.get(a).copied().unwrap_or_default();
+    let gradient = state.columns.displacement_gradient[a];
+    let memory = state.columns.inelastic_strain.get(a).copied().unwrap_or_default();
     let stress = material::first_piola::<S>(state.body(a), gradient, memory);
     if !state.method.list_follows() {
         return stress;

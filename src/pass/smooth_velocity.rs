@@ -12,9 +12,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut smoothed = std::mem::take(&mut state.particles.smoothed_velocity);
+    let mut smoothed = std::mem::take(&mut state.columns.smoothed_velocity);
     super::write(&mut smoothed, |a, slot| *slot = smooth(state, a));
-    state.particles.smoothed_velocity = smoothed;
+    state.columns.smoothed_velocity = smoothed;
 }
 
 #[inline(always)]
@@ -28,5 +28,5 @@ fn smooth<S: Space>(state: &State<S>, a: usize) -> S::Vec {
             sum += velocity_difference(state, a, &pair) * (mass / density * weight);
         }
     }
-    state.particles.velocity[a] + sum * state.params.smoothing_weight
+    state.columns.velocity[a] + sum * state.params.smoothing_weight
 }

@@ -9,7 +9,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     for cell in 0..state.params.cell_total as usize {
-        let range = state.cell_start[cell] as usize..state.cell_start[cell + 1] as usize;
-        state.cell_particles[range].sort_unstable();
+        let range = state.columns.cell_start[cell] as usize..state.columns.cell_start[cell + 1] as usize;
+        state.columns.cell_particles[range].sort_unstable();
     }
 }

@@ -12,33 +12,33 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     if state.method.gradient == Gradient::Adjoint {
-        let mut corrected = std::mem::take(&mut state.particles.corrected_stress);
+        let mut corrected = std::mem::take(&mut state.columns.corrected_stress);
         super::write(&mut corrected, |a, slot| {
-            *slot = S::mat_mat(S::mat_of_sym(stress(state, a)), state.particles.correction[a]);
+            *slot = S::mat_mat(S::mat_of_sym(stress(state, a)), state.columns.correction[a]);
         });
-        state.particles.corrected_stress = corrected;
+        state.columns.corrected_stress = corrected;
     } else {
-        let mut specific = std::mem::take(&mut state.particles.specific_stress);
+        let mut specific = std::mem::take(&mut state.columns.specific_stress);
         super::write(&mut specific, |a, slot| *slot = stress(state, a) * square_of_volume(state, a));
-        state.particles.specific_stress = specific;
+        state.columns.specific_stress = specific;
     }
     match state.method.artificial_stress {
         Some(ArtificialForm::Scalar) => {
-            let mut artificial = std::mem::take(&mut state.particles.artificial_pressure);
+            let mut artificial = std::mem::take(&mut state.columns.artificial_pressure);
             super::write(&mut artificial, |a, slot| {
-                let pressure = material::pressure(state.body(a).bulk_modulus, state.particles.volumetric_strain[a]);
+                let pressure = material::pressure(state.body(a).bulk_modulus, state.columns.volumetric_strain[a]);
                 let tension = (-pressure).max(S::Real::of(0.0));
                 *slot = -state.params.artificial_epsilon * tension * square_of_volume(state, a);
             });
-            state.particles.artificial_pressure = artificial;
+            state.columns.artificial_pressure = artificial;
         }
         Some(ArtificialForm::Principal) => {
-            let mut artificial = std::mem::take(&mut state.particles.artificial_stress);
+            let mut artificial = std::mem::take(&mut state.columns.artificial_stress);
             super::write(&mut artificial, |a, slot| {
                 let tension = tensile_part::<S>(stress(state, a));
                 *slot = tension * (-state.params.artificial_epsilon * square_of_volume(state, a));
             });
-            state.particles.artificial_stress = artificial;
+            state.columns.artificial_stress = artificial;
         }
         None => {}
     }
@@ -54,9 +54,9 @@ fn square_of_volume<S: Space>(state: &State<S>, a: usize) -> S::Real {
 /// sigma = -P 1 + S, Fuller (2.29) with the sign mended.
 #[inline(always)]
 pub fn stress<S: Space>(state: &State<S>, a: usize) -> S::Sym {
-    let pressure = material::pressure(state.body(a).bulk_modulus, state.particles.volumetric_strain[a]);
+    let pressure = material::pressure(state.body(a).bulk_modulus, state.columns.volumetric_strain[a]);
     let sigma = S::diagonal(-pressure);
-    if state.method.shear { sigma + state.particles.deviatoric_stress[a] } else { sigma }
+    if state.method.shear { sigma + state.columns.deviatoric_stress[a] } else { sigma }
 }
 
 /// The tensor with its compressive principal values set to zero: Gray, Monaghan & Swift 2001.

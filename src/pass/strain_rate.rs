@@ -18,13 +18,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let corrected = state.method.gradient != Gradient::Plain;
-    let mut gradients = std::mem::take(&mut state.particles.velocity_gradient);
+    let mut gradients = std::mem::take(&mut state.columns.velocity_gradient);
     if corrected {
         super::write(&mut gradients, |a, slot| *slot = corrected_gradient(state, a));
     } else {
         super::write(&mut gradients, |a, slot| *slot = plain_gradient(state, a));
     }
-    state.particles.velocity_gradient = gradients;
+    state.columns.velocity_gradient = gradients;
 }
 
 #[inline(always)]

@@ -19,26 +19,26 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
     let step = state.clock.step;
     if state.method.shear {
-        let mut stress = std::mem::take(&mut state.particles.deviatoric_stress);
+        let mut stress = std::mem::take(&mut state.columns.deviatoric_stress);
         super::write(&mut stress, |a, slot| {
             let gradient = middle_gradient(state, a);
             let half = material::deviatoric_rate::<S>(state.body(a).shear_modulus, gradient) * (S::Real::of(0.5) * step);
             let rotated = rotate::<S>(*slot + half, S::skew_part(gradient) * step);
             *slot = rotated + half;
         });
-        state.particles.deviatoric_stress = stress;
+        state.columns.deviatoric_stress = stress;
     }
     if state.method.plastic() {
         yield_to(state);
     }
     if state.method.density == Density::Continuity {
-        let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
+        let mut strain = std::mem::take(&mut state.columns.volumetric_strain);
         super::write(&mut strain, |a, slot| {
             let growth = S::trace(middle_gradient(state, a)) * step;
             // Crank-Nicolson of J' = J tr L, written for J - 1 so that f32 keeps small strains.
             *slot += (S::Real::of(1.0) + *slot) * growth / (S::Real::of(1.0) - S::Real::of(0.5) * growth);
         });
-        state.particles.volumetric_strain = strain;
+        state.columns.volumetric_strain = strain;
     }
 }
 
@@ -47,15 +47,15 @@ fn yield_to<S: Space>(state: &mut State<S>) {
     let zero = S::Real::of(0.0);
     let mut returns = vec![(S::Sym::default(), zero, zero); state.params.count as usize];
     super::write(&mut returns, |a, slot| {
-        let particles = &state.particles;
-        let (stress, k) = (particles.deviatoric_stress[a], particles.equivalent_plastic_strain[a]);
+        let columns = &state.columns;
+        let (stress, k) = (columns.deviatoric_stress[a], columns.equivalent_plastic_strain[a]);
         *slot = material::j2::yielded::<S>(state.body(a), stress, k);
     });
     for (a, (stress, growth, work)) in returns.into_iter().enumerate() {
-        let specific_volume = (S::Real::of(1.0) + state.particles.volumetric_strain[a]) / state.body(a).density;
-        state.particles.deviatoric_stress[a] = stress;
-        state.particles.equivalent_plastic_strain[a] += growth;
-        if let Some(heat) = state.particles.dissipated_energy.get_mut(a) {
+        let specific_volume = (S::Real::of(1.0) + state.columns.volumetric_strain[a]) / state.body(a).density;
+        state.columns.deviatoric_stress[a] = stress;
+        state.columns.equivalent_plastic_strain[a] += growth;
+        if let Some(heat) = state.columns.dissipated_energy.get_mut(a) {
             *heat += work * specific_volume;
         }
     }
@@ -66,7 +66,7 @@ fn yield_to<S: Space>(state: &mut State<S>) {
 /// volume's step comes out exact: J -> J/(1 - step tr L).
 #[inline(always)]
 fn middle_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    let gradient = state.particles.velocity_gradient[a];
+    let gradient = state.columns.velocity_gradient[a];
     if state.method.gradient != Gradient::Plain {
         return gradient;
     }

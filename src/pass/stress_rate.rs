@@ -12,22 +12,22 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     if state.method.shear {
-        let mut rates = std::mem::take(&mut state.particles.deviatoric_stress_rate);
+        let mut rates = std::mem::take(&mut state.columns.deviatoric_stress_rate);
         super::write(&mut rates, |a, slot| {
-            let gradient = state.particles.velocity_gradient[a];
-            let spun = S::mat_mat(S::skew_part(gradient), S::mat_of_sym(state.particles.deviatoric_stress[a]));
+            let gradient = state.columns.velocity_gradient[a];
+            let spun = S::mat_mat(S::skew_part(gradient), S::mat_of_sym(state.columns.deviatoric_stress[a]));
             // Omega S - S Omega is twice the symmetric part of Omega S.
             let rotation = S::sym_part(spun) * S::Real::of(2.0);
             *slot = material::deviatoric_rate::<S>(state.body(a).shear_modulus, gradient) + rotation;
         });
-        state.particles.deviatoric_stress_rate = rates;
+        state.columns.deviatoric_stress_rate = rates;
     }
     if state.method.density == Density::Continuity {
-        let mut rates = std::mem::take(&mut state.particles.volumetric_strain_rate);
+        let mut rates = std::mem::take(&mut state.columns.volumetric_strain_rate);
         super::write(&mut rates, |a, slot| {
-            let trace = S::trace(state.particles.velocity_gradient[a]);
-            *slot = (S::Real::of(1.0) + state.particles.volumetric_strain[a]) * trace;
+            let trace = S::trace(state.columns.velocity_gradient[a]);
+            *slot = (S::Real::of(1.0) + state.columns.volumetric_strain[a]) * trace;
         });
-        state.particles.volumetric_strain_rate = rates;
+        state.columns.volumetric_strain_rate = rates;
     }
 }

@@ -12,9 +12,9 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut excess = std::mem::take(&mut state.particles.colour_excess);
+    let mut excess = std::mem::take(&mut state.columns.colour_excess);
     super::write(&mut excess, |a, slot| *slot = sum(state, a));
-    state.particles.colour_excess = excess;
+    state.columns.colour_excess = excess;
 }
 
 fn sum<S: Space>(state: &State<S>, a: usize) -> S::Real {
@@ -25,7 +25,7 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> S::Real {
         if pair.law == COLOUR_FIELD {
             let x = separation(state, a, b as u32);
             threshold = pair.threshold;
-            colour += state.particles.reference_volume[b] * kernel.weight(S::inner(x, x).sqrt(), S::Real::of(0.5) * pair.range);
+            colour += state.columns.reference_volume[b] * kernel.weight(S::inner(x, x).sqrt(), S::Real::of(0.5) * pair.range);
         }
     }
     (colour - threshold).max(S::Real::of(0.0))

@@ -15,7 +15,7 @@ fn sum<S: Space>(state: &mut State<S>) {
         return;
     }
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
-    let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
+    let mut strain = std::mem::take(&mut state.columns.volumetric_strain);
     super::write(&mut strain, |a, slot| {
         let body = state.body(a);
         let mut density = state.mass(a) * kernel.weight(S::Real::of(0.0), body.smoothing_length);
@@ -27,5 +27,5 @@ fn sum<S: Space>(state: &mut State<S>) {
         }
         *slot = body.density / density - S::Real::of(1.0);
     });
-    state.particles.volumetric_strain = strain;
+    state.columns.volumetric_strain = strain;
 }

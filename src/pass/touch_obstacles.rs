@@ -29,12 +29,12 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let (added, friction) = (state.method.gap.is_some(), state.method.friction);
-    let mut own = std::mem::take(&mut state.particles);
+    let mut own = std::mem::take(&mut state.columns);
     let (mut obstacle, mut load) = (std::mem::take(&mut own.facet_obstacle), std::mem::take(&mut own.facet_load));
     let (mut force, mut moment) = (std::mem::take(&mut own.facet_force), std::mem::take(&mut own.facet_moment));
     let (mut pressure, mut energy) = (std::mem::take(&mut own.facet_pressure), std::mem::take(&mut own.facet_energy));
     let (mut slip, mut heat) = (std::mem::take(&mut own.facet_obstacle_slip), std::mem::take(&mut own.facet_heat));
-    state.particles = own;
+    state.columns = own;
     let put = |e: usize, row: Row<'_, S>, slip: S::Vec| {
         let touch = touch(state, e, slip);
         // Out of touch as before: there is nothing to add, nor to take back.
@@ -64,7 +64,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             put(e, Row::of(row), S::Vec::default());
         });
     }
-    let own = &mut state.particles;
+    let own = &mut state.columns;
     (own.facet_obstacle, own.facet_load, own.facet_force, own.facet_moment) = (obstacle, load, force, moment);
     (own.facet_pressure, own.facet_energy, own.facet_obstacle_slip, own.facet_heat) = (pressure, energy, slip, heat);
 }
@@ -94,7 +94,7 @@ impl<'c, S: Space> Row<'c, S> {
 
 /// The obstacle that a facet is deepest in, counted from 1, its distance and its normal.
 fn deepest<S: Space>(state: &State<S>, e: usize) -> (usize, S::Real, S::Vec) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let body = state.body_index(columns.facet_owner[e] as usize);
     let mut found = (0, S::Real::of(0.0), S::Vec::default());
     for (k, obstacle) in state.obstacles.iter().enumerate() {
@@ -118,7 +118,7 @@ fn touch<S: Space>(state: &State<S>, e: usize, slip: S::Vec) -> TouchIn<S> {
     if obstacle == 0 {
         return Touch::default();
     }
-    let columns = &state.particles;
+    let columns = &state.columns;
     let body = state.body_index(columns.facet_owner[e] as usize);
     let pair = state.obstacle_pairs[(obstacle - 1) * state.params.body_count as usize + body];
     let stiffness = pair.stiffness * columns.facet_area[e];
@@ -145,7 +145,7 @@ fn rub<S: Space>(
     (pair, stiffness, force): (&FacetPair<S::Real>, S::Real, S::Real),
     touch: &mut TouchIn<S>,
 ) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let grown = touch.slip + columns.facet_move[e] - columns.obstacle_move[k];
     let along = grown - normal * S::inner(grown, normal);
     (touch.slip, touch.heat) = stick::<S>(along, stiffness, pair.friction * force);

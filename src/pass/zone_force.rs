@@ -9,25 +9,25 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.clock.running == 0 {
         return;
     }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
+    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
     super::write(&mut accelerations, |a, acceleration| {
-        if state.particles.contact_count[a] > 0 {
+        if state.columns.contact_count[a] > 0 {
             *acceleration += sum(state, a) * (S::Real::of(1.0) / state.mass(a));
         }
     });
-    state.particles.acceleration = accelerations;
+    state.columns.acceleration = accelerations;
 }
 
 fn sum<S: Space>(state: &State<S>, a: usize) -> S::Vec {
-    let (count, surface) = (state.params.count as usize, &state.particles.surface);
+    let (count, surface) = (state.params.count as usize, &state.columns.surface);
     let mut force = S::Vec::default();
     for (k, b) in state.contacts_of(a).enumerate() {
         if surface[a] != 0 {
-            force = force - state.zone_forces[k * count + a];
+            force = force - state.columns.zone_forces[k * count + a];
         }
         if surface[b] != 0 {
             let place = state.contacts_of(b).position(|c| c == a);
-            force += place.map_or(S::Vec::default(), |k| state.zone_forces[k * count + b]);
+            force += place.map_or(S::Vec::default(), |k| state.columns.zone_forces[k * count + b]);
         }
     }
     force

@@ -1,8 +1,8 @@
 //! The passes of Shutov & Klyuchantsev's method at their places in a step.
 
 use super::{call, drift_by, list, order};
+use crate::fields::Field;
 use crate::method::CorrectedKernel;
-use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
 
 /// A pass whose sums run over the reference configuration, or over the current one.
@@ -74,7 +74,7 @@ pub(super) fn fields(options: CorrectedKernel, staged: bool) -> Vec<Field> {
         (true, &[ShapeStress][..]),
         (options.correction, &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
         (options.current(), &[VolumetricStrain]),
-        (options.keeps_gradients(), &[KeptCount]),
+        (options.keeps_gradients(), &[KeptCount, KeptNeighbors, KeptGradients]),
         (options.evolved() && staged, &[DisplacementGradientRate, DisplacementGradientStart, DisplacementGradientSum]),
     ];
     wanted.iter().filter(|(on, _)| *on).flat_map(|(_, fields)| fields.iter().copied()).collect()
