@@ -103,7 +103,7 @@ impl Registry {
     /// # Errors
     /// The first that this registry lacks.
     pub fn fields(&self, method: &Method) -> Result<Vec<Field>, String> {
-        let needed = step::needed_fields(method);
+        let needed = step::fields(method);
         for &field in &needed {
             self.holds(Part::Field(field), "field", field.name())?;
         }

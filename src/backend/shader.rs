@@ -15,7 +15,7 @@ use crate::material::Law;
 use crate::method::{FLAGS, Method};
 use crate::pass::Pass;
 use crate::registry::{File, Registry};
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 
 macro_rules! library {
     ($($folder:ident: $($stem:ident),*;)*) => {
@@ -198,6 +198,9 @@ pub struct Binding {
     pub binding: u32,
     pub name: String,
     pub kind: Access,
+    /// Whether the entry point loads from it, and stores to it.
+    pub reads: bool,
+    pub writes: bool,
 }
 
 /// What the host must know of an entry point.
@@ -237,7 +240,7 @@ impl Shader {
         let usage = self.info.get_entry_point(index);
         let mut bindings: Vec<Binding> = (self.module.global_variables.iter())
             .filter(|(handle, _)| !usage[*handle].is_empty())
-            .filter_map(|(_, variable)| binding_of(variable))
+            .filter_map(|(handle, variable)| binding_of(variable, usage[handle]))
             .collect();
         bindings.sort_by_key(|binding| (binding.group, binding.binding));
         Ok(Interface {
@@ -260,7 +263,7 @@ pub fn offsets(wgsl: &str, structure: &str) -> Result<Vec<(String, u32)>, String
     shader.module.types.iter().find_map(named).ok_or_else(|| format!("the shader has no structure {structure}"))
 }
 
-fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
+fn binding_of(variable: &naga::GlobalVariable, used: GlobalUse) -> Option<Binding> {
     let place = variable.binding.as_ref()?;
     let kind = match variable.space {
         naga::AddressSpace::Uniform => Access::Uniform,
@@ -268,7 +271,8 @@ fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
         naga::AddressSpace::Storage { .. } => Access::Read,
         _ => return None,
     };
-    Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind })
+    let (reads, writes) = (used.contains(GlobalUse::READ), used.contains(GlobalUse::WRITE));
+    Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind, reads, writes })
 }
 
 /// Bindings, workgroup size and constants of an entry point.

@@ -3,28 +3,44 @@
 //! remember of the load step before is settled.
 //! Twin: shaders/pass/begin_load.wgsl
 
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::with_columns;
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::Space;
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "moves what is held by a load step, and predicts the rest",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[Displacement, EquilibriumDisplacement]),
+            when(|m| m.plastic(), &[InelasticStrain, EquivalentPlasticStrain]),
+            when(|m| m.constraints, &[Constraint]),
+            when(|m| m.compensated, &[DisplacementCarry]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[Displacement, Velocity, EquilibriumDisplacement]),
+            when(|m| m.compensated, &[DisplacementCarry]),
+            when(|m| m.plastic(), &[EquilibriumInelasticStrain, EquilibriumPlasticStrain]),
+        ],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut displacement = std::mem::take(&mut state.columns.displacement);
-    let mut equilibrium = std::mem::take(&mut state.columns.equilibrium_displacement);
-    let mut carry = std::mem::take(&mut state.columns.displacement_carry);
-    for (a, (u, before)) in displacement.iter_mut().zip(&mut equilibrium).enumerate() {
-        let increment = increment(state, a, *u - *before);
-        *before = *u;
-        match carry.get_mut(a) {
-            Some(carry) => compensated_add::<S>(u, carry, increment),
-            None => *u += increment,
+    with_columns!(state, [displacement, equilibrium_displacement, displacement_carry] => {
+        for (a, (u, before)) in displacement.iter_mut().zip(&mut equilibrium_displacement).enumerate() {
+            let increment = increment(state, a, *u - *before);
+            *before = *u;
+            match displacement_carry.get_mut(a) {
+                Some(carry) => compensated_add::<S>(u, carry, increment),
+                None => *u += increment,
+            }
         }
-    }
-    state.columns.displacement = displacement;
-    state.columns.equilibrium_displacement = equilibrium;
-    state.columns.displacement_carry = carry;
+    });
     state.columns.velocity.fill(S::Vec::default());
     if state.method.plastic() {
         let columns = &mut state.columns;

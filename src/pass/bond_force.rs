@@ -13,21 +13,41 @@
 //! Twin: shaders/pass/bond_force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::method::Gradient;
 use crate::pair::mirror_tensor;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration by the bonds of the reference configuration",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, BondStress, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.hourglass, &[Displacement]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, BondStress]),
+            when(|m| m.hourglass, &[Displacement]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
+        writes: &[always(&[Acceleration])],
     }
-    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
-    with_bonds!(state, B => {
-        super::write(&mut accelerations, |a, slot| *slot = sum::<S, B>(state, a));
-    });
-    state.columns.acceleration = accelerations;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    with_bonds!(state, B => fill!(state, acceleration, |a, slot| *slot = sum::<S, B>(state, a)));
 }
 
 #[inline(always)]

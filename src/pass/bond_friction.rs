@@ -7,15 +7,28 @@
 //! Twin: shaders/pass/bond_friction.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::bond::{Bond, Source, displacement_difference, with_bonds};
 use crate::pair::mirror_vector;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds viscosity between the ends of bonds",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, Velocity, Acceleration, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity])],
+        writes: &[always(&[Acceleration]), when(|m| m.dissipated_power(), &[DissipatedPower])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut sums = vec![(S::Vec::default(), S::Real::of(0.0)); state.params.count as usize];
     with_bonds!(state, B => super::write(&mut sums, |a, slot| *slot = sum::<S, B>(state, a)));
     let columns = &mut state.columns;

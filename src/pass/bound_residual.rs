@@ -12,27 +12,40 @@
 mod descent;
 
 use super::Stage;
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
+use super::write::fill;
 use crate::fields::REDUCTION_BLOCK;
 use crate::rows::Fault;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "finds how far from equilibrium the particles are, and how to go on",
+        entries: &[Entry::new("blocks", Domain::ReductionBlocks), Entry::new("advance", Domain::One)],
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferenceVolume, Velocity, Acceleration, DisplacementGradient, BlockResidual]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.constraints, &[Constraint]),
+        ],
+        neighbours: &[],
+        writes: &[always(&[BlockResidual])],
+    }
+};
+
 /// Sums of m a.v, m a^2, m v^2 and a gap; then the largest force, force scale, rate c/h and fault.
 type Measure<R> = [R; 8];
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut blocks = std::mem::take(&mut state.columns.block_residual);
     let nothing = [S::Real::of(0.0); 8];
-    super::write(&mut blocks, |block, slot| {
+    fill!(state, block_residual, |block, slot| {
         let first = block * REDUCTION_BLOCK;
         let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
         *slot = (first..last).fold(nothing, |whole, a| joined(whole, measure(state, a)));
     });
-    let whole = blocks.iter().fold(nothing, |whole, &block| joined(whole, block));
-    state.columns.block_residual = blocks;
+    let whole = state.columns.block_residual.iter().fold(nothing, |whole, &block| joined(whole, block));
     descent::go_on(state, whole);
 }
 

@@ -4,23 +4,38 @@
 //! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 
 use super::Stage;
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
+use super::write::fill;
 use crate::fields::REDUCTION_BLOCK;
 use crate::rows::Fault;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances the clock; finds the next step, whether the list still holds, and faults",
+        entries: &[Entry::new("blocks", Domain::ReductionBlocks), Entry::new("advance", Domain::One)],
+        runs: Runs::Running,
+        own: &[
+            always(&[Velocity, Acceleration, BlockBound]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.listed_again(), &[Displacement, ListedDisplacement]),
+            when(|m| m.finite_strain(), &[DisplacementGradient]),
+            when(|m| !m.finite_strain(), &[VolumetricStrain, VelocityGradient]),
+        ],
+        neighbours: &[],
+        writes: &[always(&[BlockBound])],
     }
-    let mut blocks = std::mem::take(&mut state.columns.block_bound);
-    super::write(&mut blocks, |block, slot| {
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, block_bound, |block, slot| {
         let first = block * REDUCTION_BLOCK;
         let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
         *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, bound_of(state, a)));
     });
-    let bound = blocks.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
-    state.columns.block_bound = blocks;
+    let bound = state.columns.block_bound.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
     clock(state, bound);
 }
 

@@ -7,9 +7,22 @@
 //! Twin: shaders/pass/correct_quadratic.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::bond::{Source, with_bonds};
 use crate::state::State;
 use crate::tensor::{Linear, Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "coefficients of the gradient that is exact for quadratic displacements",
+        entries: LISTED,
+        runs: Runs::Always,
+        own: &[always(&[ReferencePosition, ReferenceCorrection, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume])],
+        writes: &[always(&[LinearCoefficient, QuadraticCoefficient])],
+    }
+};
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut coefficients = vec![(S::Sym::default(), S::Tri::default()); state.params.count as usize];

@@ -9,25 +9,51 @@
 //! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::{GRAIN, fill, with_columns, write_rows};
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::material::{self, Memory};
 use crate::method::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "deformation gradient, stress, and what the bonds carry of it",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.corrects_rate(), &[ReferenceCorrection]),
+            when(
+                |m| m.memory() && m.plastic() && m.quasi_static.is_some(),
+                &[EquilibriumInelasticStrain, EquilibriumPlasticStrain],
+            ),
+            when(|m| m.quadratic_gradient(), &[LinearCoefficient, QuadraticCoefficient]),
+            when(|m| m.memory(), &[InelasticStrain]),
+            when(|m| m.memory() && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.memory() && m.dissipated_energy, &[DisplacementGradient, DissipatedEnergy]),
+        ],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement])],
+        writes: &[
+            always(&[DisplacementGradient, BondStress]),
+            when(|m| m.memory(), &[InelasticStrain]),
+            when(|m| m.memory() && m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.memory() && m.dissipated_energy, &[DissipatedEnergy]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     // Where nothing else comes between deformation and stress, one loop does both.
     let at_once = !state.method.memory() && state.method.gradient != Gradient::Quadratic;
-    let mut gradients = std::mem::take(&mut state.columns.displacement_gradient);
-    let mut stresses = std::mem::take(&mut state.columns.bond_stress);
     let heats = state.method.memory() && state.method.dissipated_energy;
-    let before = if heats { gradients.clone() } else { Vec::new() };
-    with_bonds!(state, B => {
-        write_rows((&mut gradients[..], &mut stresses[..]), GRAIN, |a, (gradient, stress)| {
+    let before = if heats { state.columns.displacement_gradient.clone() } else { Vec::new() };
+    with_columns!(state, [displacement_gradient, bond_stress] => with_bonds!(state, B => {
+        write_rows((&mut displacement_gradient[..], &mut bond_stress[..]), GRAIN, |a, (gradient, stress)| {
             *stress = sum_bonds::<S, B>(state, a);
             *gradient = corrected(state, a, stress);
             let linear = *gradient;
@@ -39,18 +65,15 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
                 *stress = corrected(state, a, &piola(state, a, *gradient)) - linear * hourglass_stiffness(state, a);
             }
         });
-    });
-    state.columns.displacement_gradient = gradients;
+    }));
     if at_once {
-        state.columns.bond_stress = stresses;
         return;
     }
     relax(state, &before);
-    super::write(&mut stresses, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
-    state.columns.bond_stress = stresses;
-    let mut stresses = std::mem::take(&mut state.columns.quadratic_stress);
-    super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.columns.quadratic_coefficient[a]));
-    state.columns.quadratic_stress = stresses;
+    fill!(state, bond_stress, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
+    fill!(state, quadratic_stress, |a, slot| {
+        *slot = S::mat_tri(stress(state, a), state.columns.quadratic_coefficient[a]);
+    });
 }
 
 /// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
@@ -65,14 +88,12 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
         *memory = material::relax::<S>(state.body(a), gradients[a], remembered(state, a), step);
     });
     if !before.is_empty() {
-        let mut heats = std::mem::take(&mut state.columns.dissipated_energy);
-        super::write(&mut heats, |a, heat| {
+        fill!(state, dissipated_energy, |a, heat| {
             let (body, old) = (state.body(a), state.columns.inelastic_strain[a]);
             let of_step =
                 material::dissipated::<S>(body, (before[a], old), (state.columns.displacement_gradient[a], memories[a].0));
             *heat += of_step * (S::Real::of(1.0) / body.density);
         });
-        state.columns.dissipated_energy = heats;
     }
     for (a, (strain, plastic)) in memories.into_iter().enumerate() {
         state.columns.inelastic_strain[a] = strain;

@@ -2,22 +2,41 @@
 //! Twin: shaders/pass/deform_by_shape.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use crate::shape_function::{Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::Space;
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "deformation gradient from displacements, Shutov & Klyuchantsev (8)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[Displacement]),
+            when(|m| !m.kept_gradients() && m.many_bodies, &[Body]),
+            when(|m| !m.kept_gradients(), &[ReferencePosition, ReferenceVolume, NeighborCount, Neighbors]),
+            when(|m| !m.kept_gradients() && m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.kept_gradients(), &[KeptCount, KeptNeighbors, KeptGradients]),
+        ],
+        neighbours: &[
+            always(&[Displacement]),
+            when(|m| !m.kept_gradients() && m.many_bodies, &[Body]),
+            when(|m| !m.kept_gradients(), &[ReferencePosition, ReferenceVolume]),
+        ],
+        writes: &[always(&[DisplacementGradient])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut gradients = std::mem::take(&mut state.columns.displacement_gradient);
     if state.method.list_follows() {
-        super::write(&mut gradients, |a, slot| *slot = sum_kept(state, a));
+        fill!(state, displacement_gradient, |a, slot| *slot = sum_kept(state, a));
     } else {
-        super::write(&mut gradients, |a, slot| *slot = sum_nodes(state, a));
+        fill!(state, displacement_gradient, |a, slot| *slot = sum_nodes(state, a));
     }
-    state.columns.displacement_gradient = gradients;
 }
 
 /// u_b - u_a

@@ -9,11 +9,47 @@
 //! Twin: shaders/pass/force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::method::{ArtificialForm, Gradient};
 use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
 use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration, Fuller (2.59) with the sign of the viscosity mended",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.pair_volume(), &[VolumetricStrain]),
+            when(|m| m.pair_velocity(), &[Velocity]),
+            when(|m| m.adjoint(), &[CorrectedStress]),
+            when(|m| !m.adjoint(), &[SpecificStress]),
+            when(|m| m.scalar_form(), &[ArtificialPressure]),
+            when(|m| m.principal_form(), &[ArtificialStress]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.pair_volume(), &[VolumetricStrain]),
+            when(|m| m.pair_velocity(), &[Velocity]),
+            when(|m| m.adjoint(), &[CorrectedStress]),
+            when(|m| !m.adjoint(), &[SpecificStress]),
+            when(|m| m.scalar_form(), &[ArtificialPressure]),
+            when(|m| m.principal_form(), &[ArtificialStress]),
+        ],
+        writes: &[
+            always(&[Acceleration]),
+            when(|m| m.internal_energy, &[InternalPower]),
+            when(|m| m.dissipated_power(), &[DissipatedPower]),
+        ],
+    }
+};
 
 /// What the sum over neighbours gives.
 #[derive(Clone, Copy)]
@@ -31,19 +67,14 @@ impl<S: Space> Default for Sums<S> {
 }
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
     if !(state.method.internal_energy || state.method.dissipated_power()) {
-        super::write(&mut accelerations, |a, slot| *slot = sum(state, a).acceleration);
-        state.columns.acceleration = accelerations;
+        fill!(state, acceleration, |a, slot| *slot = sum(state, a).acceleration);
         return;
     }
-    let mut sums = vec![Sums::<S>::default(); accelerations.len()];
+    let mut sums = vec![Sums::<S>::default(); state.params.count as usize];
     super::write(&mut sums, |a, slot| *slot = sum(state, a));
     for (a, sum) in sums.iter().enumerate() {
-        accelerations[a] = sum.acceleration;
+        state.columns.acceleration[a] = sum.acceleration;
         if state.method.internal_energy {
             state.columns.internal_power[a] = sum.internal_power;
         }
@@ -51,7 +82,6 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             state.columns.dissipated_power[a] = sum.dissipated_power;
         }
     }
-    state.columns.acceleration = accelerations;
 }
 
 #[inline(always)]

@@ -1,31 +1,51 @@
 //! v += part step a, then the boundary conditions. Twin: shaders/pass/kick.wgsl
 
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::{fill, with_columns};
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances the velocity by a part of the step",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[Velocity, Acceleration]),
+            when(|m| m.constraints, &[Constraint]),
+            when(|m| m.internal_energy, &[InternalEnergy, InternalPower]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy, DissipatedPower]),
+            when(|m| m.compensated, &[VelocityCarry]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[Velocity]),
+            when(|m| m.compensated, &[VelocityCarry]),
+            when(|m| m.internal_energy, &[InternalEnergy]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     let part = S::Real::of(stage.part) * state.clock.step;
     let time = state.clock.start + state.clock.elapsed + S::Real::of(stage.time) * state.clock.step;
-    let mut velocity = std::mem::take(&mut state.columns.velocity);
-    let before = if state.method.internal_energy { velocity.clone() } else { Vec::new() };
+    let before = if state.method.internal_energy { state.columns.velocity.clone() } else { Vec::new() };
     if state.method.compensated {
-        let mut carry = std::mem::take(&mut state.columns.velocity_carry);
-        for (a, (v, c)) in velocity.iter_mut().zip(&mut carry).enumerate() {
-            compensated_add::<S>(v, c, acceleration(state, a, time) * part);
-            *v = prescribe(state, a, *v, time);
-        }
-        state.columns.velocity_carry = carry;
+        with_columns!(state, [velocity, velocity_carry] => {
+            for (a, (v, c)) in velocity.iter_mut().zip(&mut velocity_carry).enumerate() {
+                compensated_add::<S>(v, c, acceleration(state, a, time) * part);
+                *v = prescribe(state, a, *v, time);
+            }
+        });
     } else {
-        super::write(&mut velocity, |a, v| {
+        fill!(state, velocity, |a, v| {
             *v += acceleration(state, a, time) * part;
             *v = prescribe(state, a, *v, time);
         });
     }
-    state.columns.velocity = velocity;
     add_energy(state, part, &before, stage);
 }
 

@@ -4,13 +4,23 @@
 //! A free obstacle's half kick comes first; the other half follows in [`super::load_obstacles`].
 
 use super::Stage;
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "moves rigid obstacles to the end of the step",
+        entries: &[Entry::new("main", Domain::One)],
+        runs: Runs::Running,
+        own: &[always(&[ObstacleDisplacement, ObstacleVelocity, ObstacleForce])],
+        neighbours: &[],
+        writes: &[always(&[ObstacleDisplacement, ObstacleVelocity]), when(|m| m.friction, &[ObstacleMove])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let step = state.clock.step;
     for k in 0..state.params.obstacle_count as usize {
         let mover = state.movers[k];

@@ -2,41 +2,61 @@
 //! shaders/pass/place_facets.wgsl
 
 use super::Stage;
-use super::write::{GRAIN, Rows, write_blocks};
+use super::declaration::{Declaration, FACETS, Runs, always, when};
+use super::write::{GRAIN, Rows, with_columns, write_blocks};
 use crate::facet::lever;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "moves facets with their particles",
+        entries: FACETS,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                ReferencePosition,
+                Displacement,
+                DisplacementGradient,
+                FacetOwner,
+                FacetReferencePosition,
+                FacetReferenceNormal,
+            ]),
+            when(|m| m.friction, &[FacetDisplacement]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[FacetDisplacement, FacetNormal]),
+            when(|m| m.friction, &[FacetMove]),
+            when(|m| m.gap.is_some(), &[FacetPressed]),
+        ],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut displacements = std::mem::take(&mut state.columns.facet_displacement);
-    let mut moves = std::mem::take(&mut state.columns.facet_move);
-    let mut normals = std::mem::take(&mut state.columns.facet_normal);
-    // Facets of one particle follow each other: what they share is found once.
-    let carrier = || Carrier::<S> { particle: usize::MAX, turn: S::Mat::default() };
-    let places = (&mut displacements[..], &mut normals[..]);
-    if state.method.friction {
-        write_blocks((places, &mut moves[..]), GRAIN, &|first, block| {
-            let mut carrier = carrier();
-            for (e, ((place, direction), step)) in (first..).zip(block.rows()) {
-                let before = *place;
-                (*place, *direction) = seat(state, e, &mut carrier);
-                *step = *place - before;
-            }
-        });
-    } else {
-        write_blocks(places, GRAIN, &|first, block| {
-            let mut carrier = carrier();
-            for (e, (place, direction)) in (first..).zip(block.rows()) {
-                (*place, *direction) = seat(state, e, &mut carrier);
-            }
-        });
-    }
-    state.columns.facet_displacement = displacements;
-    state.columns.facet_move = moves;
-    state.columns.facet_normal = normals;
+    with_columns!(state, [facet_displacement, facet_move, facet_normal] => {
+        // Facets of one particle follow each other: what they share is found once.
+        let carrier = || Carrier::<S> { particle: usize::MAX, turn: S::Mat::default() };
+        let places = (&mut facet_displacement[..], &mut facet_normal[..]);
+        if state.method.friction {
+            write_blocks((places, &mut facet_move[..]), GRAIN, &|first, block| {
+                let mut carrier = carrier();
+                for (e, ((place, direction), step)) in (first..).zip(block.rows()) {
+                    let before = *place;
+                    (*place, *direction) = seat(state, e, &mut carrier);
+                    *step = *place - before;
+                }
+            });
+        } else {
+            write_blocks(places, GRAIN, &|first, block| {
+                let mut carrier = carrier();
+                for (e, (place, direction)) in (first..).zip(block.rows()) {
+                    (*place, *direction) = seat(state, e, &mut carrier);
+                }
+            });
+        }
+    });
     state.columns.facet_pressed.fill(0);
 }
 

@@ -5,11 +5,45 @@
 //! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, FACETS, Runs, always, when};
+use super::write::{GRAIN, with_columns, write_rows};
 use crate::facet::{Facing, facing, lever};
 use crate::method::GapForm;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "force of other bodies' surfaces on each facet",
+        entries: FACETS,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                ReferencePosition,
+                DisplacementGradient,
+                FacetOwner,
+                FacetReferencePosition,
+                FacetDisplacement,
+                FacetNormal,
+                FacetContactCount,
+                FacetPressed,
+                FacetPull,
+                FacetContacts,
+            ]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| !m.along_normals(), &[FacetGap, FacetEdge]),
+            when(|m| m.friction, &[FacetTraction]),
+        ],
+        neighbours: &[
+            always(&[FacetOwner, FacetReferencePosition, FacetDisplacement, FacetNormal, FacetPull]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| !m.along_normals(), &[FacetGap, FacetEdge]),
+            when(|m| m.friction, &[FacetSpread, FacetTraction]),
+        ],
+        writes: &[always(&[FacetForce, FacetMoment])],
+    }
+};
 
 /// What acts on a facet.
 #[derive(Clone, Copy, Default)]
@@ -24,16 +58,11 @@ struct Load<V, M> {
 type LoadIn<S> = Load<<S as Space>::Vec, <S as Space>::Mat>;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut forces = std::mem::take(&mut state.columns.facet_force);
-    let mut moments = std::mem::take(&mut state.columns.facet_moment);
-    write_rows((&mut forces[..], &mut moments[..]), GRAIN, |e, (force, moment)| {
-        (*force, *moment) = if state.columns.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
+    with_columns!(state, [facet_force, facet_moment] => {
+        write_rows((&mut facet_force[..], &mut facet_moment[..]), GRAIN, |e, (force, moment)| {
+            (*force, *moment) = if state.columns.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
+        });
     });
-    state.columns.facet_force = forces;
-    state.columns.facet_moment = moments;
 }
 
 fn load<S: Space>(state: &State<S>, e: usize) -> (S::Vec, S::Mat) {

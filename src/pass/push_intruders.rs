@@ -2,7 +2,9 @@
 //! see [`crate::contact::zones`]. Zero where the other is not inside. Twin: shaders/pass/push_intruders.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use super::find_surface::own_neighbors;
+use super::write::with_columns;
 use crate::contact::ZONES;
 use crate::contact::zones::{CORNER, penalty};
 use crate::method::Formulation;
@@ -11,18 +13,35 @@ use crate::rows::ContactPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "force of the zone of each surface particle on those inside, Fuller (4.2), (4.3)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, ContactCount, Surface, SurfaceNormal, NeighborCount, Neighbors, Contacts]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.zones_friction(), &[Velocity]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, Displacement, SurfaceNormal]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.zones_friction(), &[Velocity]),
+        ],
+        writes: &[always(&[ZoneForces])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut forces = std::mem::take(&mut state.columns.zone_forces);
     let count = state.params.count as usize;
-    for (a, &kind) in state.columns.surface.iter().enumerate().filter(|(_, kind)| **kind != 0) {
-        for (k, b) in state.contacts_of(a).enumerate() {
-            forces[k * count + a] = push(state, a, b, kind);
+    with_columns!(state, [zone_forces] => {
+        for (a, &kind) in state.columns.surface.iter().enumerate().filter(|(_, kind)| **kind != 0) {
+            for (k, b) in state.contacts_of(a).enumerate() {
+                zone_forces[k * count + a] = push(state, a, b, kind);
+            }
         }
-    }
-    state.columns.zone_forces = forces;
+    });
 }
 
 /// Force on intruder b by owner a.

@@ -8,17 +8,36 @@
 //! is the reference volume: the force is then minus the derivative of the energy. Twin: shaders/pass/shape_force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::shape_function::{Node, Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration by the shape functions' gradients, Shutov & Klyuchantsev (5)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, ShapeStress, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.current(), &[VolumetricStrain]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, ShapeStress]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.current(), &[VolumetricStrain]),
+        ],
+        writes: &[always(&[Acceleration])],
     }
-    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
-    super::write(&mut accelerations, |a, slot| *slot = sum(state, a, stage.reference));
-    state.columns.acceleration = accelerations;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    fill!(state, acceleration, |a, slot| *slot = sum(state, a, stage.reference));
 }
 
 #[inline(always)]

@@ -8,37 +8,56 @@
 //! q = sqrt(3 J2) (Wilkins 1964). Fuller (5.1) as printed lacks the root: sY^2/q^2 takes S below the surface.
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::fill;
 use crate::material;
 use crate::method::{Density, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances volumetric strain and deviatoric stress by a step",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[VelocityGradient]),
+            when(|m| m.shears() && m.many_bodies, &[Body]),
+            when(|m| m.shears(), &[DeviatoricStress]),
+            when(|m| m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.continuity() || (m.plastic() && m.dissipated_energy), &[VolumetricStrain]),
+            when(|m| m.plastic() && m.dissipated_energy, &[DissipatedEnergy]),
+        ],
+        neighbours: &[],
+        writes: &[
+            when(|m| m.shears(), &[DeviatoricStress]),
+            when(|m| m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.plastic() && m.dissipated_energy, &[DissipatedEnergy]),
+            when(|m| m.continuity(), &[VolumetricStrain]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let step = state.clock.step;
     if state.method.shear {
-        let mut stress = std::mem::take(&mut state.columns.deviatoric_stress);
-        super::write(&mut stress, |a, slot| {
+        fill!(state, deviatoric_stress, |a, slot| {
             let gradient = middle_gradient(state, a);
             let half = material::deviatoric_rate::<S>(state.body(a).shear_modulus, gradient) * (S::Real::of(0.5) * step);
             let rotated = rotate::<S>(*slot + half, S::skew_part(gradient) * step);
             *slot = rotated + half;
         });
-        state.columns.deviatoric_stress = stress;
     }
     if state.method.plastic() {
         yield_to(state);
     }
     if state.method.density == Density::Continuity {
-        let mut strain = std::mem::take(&mut state.columns.volumetric_strain);
-        super::write(&mut strain, |a, slot| {
+        fill!(state, volumetric_strain, |a, slot| {
             let growth = S::trace(middle_gradient(state, a)) * step;
             // Crank-Nicolson of J' = J tr L, written for J - 1 so that f32 keeps small strains.
             *slot += (S::Real::of(1.0) + *slot) * growth / (S::Real::of(1.0) - S::Real::of(0.5) * growth);
         });
-        state.columns.volumetric_strain = strain;
     }
 }
 

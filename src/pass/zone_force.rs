@@ -2,20 +2,32 @@
 //! momentum is kept to the last digit. Twin: shaders/pass/zone_force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::fill;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds the acceleration by zones",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferenceVolume, Acceleration, ContactCount, Surface, Contacts, ZoneForces]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        neighbours: &[always(&[ContactCount, Surface, Contacts, ZoneForces])],
+        writes: &[always(&[Acceleration])],
     }
-    let mut accelerations = std::mem::take(&mut state.columns.acceleration);
-    super::write(&mut accelerations, |a, acceleration| {
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, acceleration, |a, acceleration| {
         if state.columns.contact_count[a] > 0 {
             *acceleration += sum(state, a) * (S::Real::of(1.0) / state.mass(a));
         }
     });
-    state.columns.acceleration = accelerations;
 }
 
 fn sum<S: Space>(state: &State<S>, a: usize) -> S::Vec {

@@ -3,7 +3,7 @@
 //! Before each pass the GPU and both twins get the same numbers, all of them f32. What they are compared by is
 //! [`compare`]'s rule; what is compared is every binding that the shader can write, as reflection finds it.
 
-mod cases;
+pub mod cases;
 mod compare;
 mod tables;
 mod trial;
