@@ -93,6 +93,28 @@ pub struct Declaration {
 }
 
 impl Declaration {
+    /// The entry point of a shader with one invocation for each row of its domain, which rests when the pass does; none
+    /// where the shader has its own.
+    pub fn entry(&self) -> Option<String> {
+        let &[Entry { name, domain }] = self.entries else { return None };
+        let (row, end, call) = match domain {
+            Domain::Particles => ("a", "count", "of_particle(a)"),
+            Domain::Listed => ("row", "chunk", "of_particle(params.first + row, row)"),
+            Domain::Facets => ("e", "facet_count", "of_facet(e)"),
+            Domain::Cells => ("cell", "cell_total", "of_cell(cell)"),
+            _ => return None,
+        };
+        let rests = match self.runs {
+            Runs::Always => "",
+            Runs::Running => " || clock.running == 0u",
+            Runs::Rebuilding => " || clock.running == 0u || clock.rebuild == 0u",
+        };
+        Some(format!(
+            "\n@compute @workgroup_size(64)\nfn {name}(invocation: Invocation) {{\n    let {row} = index_of(invocation);\n    \
+             if {row} >= params.{end}{rests} {{\n        return;\n    }}\n    {call};\n}}\n"
+        ))
+    }
+
     /// Fields that it reads for a method, its own and its neighbours'; some come twice.
     pub fn reads(&self, method: &Method) -> Vec<Field> {
         [fields(self.own, method), fields(self.neighbours, method)].concat()
