@@ -2,7 +2,7 @@
 //!
 //! A pass writes only to particle (or cell, or block) i. Beside its twin it declares what it reads of its own particle
 //! and of neighbours, what it writes, and when it runs: see [`Declaration`]. Twins have the shape of their shader without
-//! its machinery: the loop over i is [`write::fill`], which runs on all cores.
+//! its machinery: the loop over i is `write::fill`, which runs on all cores.
 
 mod attach_facets;
 mod begin_load;
