@@ -13,6 +13,7 @@ pub const PASS: Declaration = {
         about: "moves all carried fields into cell order",
         entries: PARTICLES,
         runs: Runs::Always,
+        // And of particles all that is carried, which the shader knows as `source` and `destination`.
         own: &[always(&[CellParticles])],
         neighbours: &[],
         writes: &[],
