@@ -10,7 +10,7 @@
 use lithosph::backend::cpu::processor_seconds;
 use lithosph::backend::device::{Want, choose};
 use lithosph::backend::{Backend, Choice, open};
-use lithosph::particles::Field;
+use lithosph::fields::Field;
 use lithosph::scene::Scene;
 use lithosph::step;
 use std::time::Instant;

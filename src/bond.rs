@@ -125,7 +125,7 @@ impl<S: Space> Lanes<S> {
                 x[k][lane] = apart[k];
             }
             own[lane] = entry;
-            weight[lane] = state.particles.reference_volume[split(entry).0];
+            weight[lane] = state.columns.reference_volume[split(entry).0];
         }
         let mut square = [S::Real::default(); LANES];
         for component in x.iter().take(S::DIMENSION) {
@@ -203,7 +203,7 @@ fn split(entry: u32) -> (usize, u32) {
 /// u_b - u_a, the neighbour's displacement mirrored if it is an image.
 #[inline(always)]
 pub fn displacement_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
-    let displacement = &state.particles.displacement;
+    let displacement = &state.columns.displacement;
     let mut u_b = displacement[bond.b];
     if B::IMAGES && bond.image != 0 {
         u_b = mirror_vector::<S>(&state.params, bond.image, u_b);
@@ -221,10 +221,10 @@ pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
     if !state.method.plastic() || body.yield_stress == S::Real::of(0.0) {
         return elastic;
     }
-    let particles = &state.particles;
+    let columns = &state.columns;
     // In a descent to equilibrium as of the last one, so that forces stay the derivative of an energy.
     let settled = state.method.quasi_static.is_some();
-    let k = if settled { particles.equilibrium_plastic_strain[a] } else { particles.equivalent_plastic_strain[a] };
+    let k = if settled { columns.equilibrium_plastic_strain[a] } else { columns.equivalent_plastic_strain[a] };
     let secant = body.yield_stress / (body.yield_stress + S::Real::of(3.0) * body.shear_modulus * k);
     elastic * secant * secant
 }
@@ -252,7 +252,7 @@ impl<S: Space> Default for BondTable<S> {
 
 impl<S: Space> BondTable<S> {
     pub fn new(state: &State<S>) -> Self {
-        let mut table = Self { rows: Vec::new(), place: vec![0; state.neighbors.len()] };
+        let mut table = Self { rows: Vec::new(), place: vec![0; state.columns.neighbors.len()] };
         let mut known = HashMap::new();
         for a in 0..state.params.count as usize {
             let first = a * state.params.list_capacity as usize;
@@ -288,6 +288,6 @@ fn distinct<S: Space>(state: &State<S>, a: usize, entry: u32) -> (([i64; 3], u64
     }
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let slope = kernel.gradient(S::inner(x, x).sqrt(), h);
-    let volume = state.particles.reference_volume[split(entry).0];
+    let volume = state.columns.reference_volume[split(entry).0];
     ((steps, volume.f64().to_bits(), h.f64().to_bits()), Row::new(x, slope, volume))
 }

@@ -6,7 +6,7 @@ mod study;
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
-use crate::{check, contact, material, observable, particles, pass, run, scene, smoothing};
+use crate::{check, contact, fields, material, observable, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use say::say;
 use std::path::{Path, PathBuf};
@@ -373,9 +373,11 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
     for pass in pass::Pass::ALL {
         say(&format!("  {:<24} {}", pass.name(), pass.about()));
     }
-    say("fields");
-    for field in particles::Field::ALL {
-        say(&format!("  {:<24} {}", field.name(), field.about()));
+    for &set in fields::Set::ALL {
+        say(&format!("fields of {}", set.word()));
+        for field in fields::Field::ALL.iter().filter(|field| field.set() == set) {
+            say(&format!("  {:<24} {}", field.name(), field.about()));
+        }
     }
     Ok(0)
 }

@@ -42,7 +42,7 @@ pub struct Facing<S: Space> {
 /// Without a branch: a third of a list is out of range, in no order that a processor could foresee.
 #[inline(always)]
 pub fn facing<S: Space>(state: &State<S>, e: usize, f: usize, range: S::Real) -> Facing<S> {
-    let (columns, zero, one) = (&state.particles, S::Real::of(0.0), S::Real::of(1.0));
+    let (columns, zero, one) = (&state.columns, S::Real::of(0.0), S::Real::of(1.0));
     let x = facet_separation(state, e, f);
     let left = (one - S::inner(x, x) / (range * range)).max(zero);
     let turn = S::inner(columns.facet_normal[e], columns.facet_normal[f]).min(zero);
@@ -58,7 +58,7 @@ pub fn facing<S: Space>(state: &State<S>, e: usize, f: usize, range: S::Real) ->
 /// x_e - x_f
 #[inline(always)]
 pub fn facet_separation<S: Space>(state: &State<S>, e: usize, f: usize) -> S::Vec {
-    let columns = &state.particles;
+    let columns = &state.columns;
     (columns.facet_reference_position[e] - columns.facet_reference_position[f])
         + (columns.facet_displacement[e] - columns.facet_displacement[f])
 }
@@ -66,7 +66,7 @@ pub fn facet_separation<S: Space>(state: &State<S>, e: usize, f: usize) -> S::Ve
 /// Facet e's way from its particle in the reference configuration.
 #[inline(always)]
 pub fn lever<S: Space>(state: &State<S>, e: usize) -> S::Vec {
-    let columns = &state.particles;
+    let columns = &state.columns;
     columns.facet_reference_position[e] - columns.reference_position[columns.facet_owner[e] as usize]
 }
 

@@ -6,8 +6,9 @@
 //!    [`scene::read`] merges variants and overrides into it and knows the line of every word;
 //!    [`scene::Scene`] is what comes out: particles with a place, a volume and a velocity, and the
 //!    [`method::Method`], the list of physics and numerics that this scene names.
-//! 2. [`step::fields`] says which columns the method needs: `deviatoric_stress` exists only if some material
-//!    resists shear. The columns are [`particles::Particles`], one list for host, device and files.
+//! 2. [`step::fields`] says which columns the method needs, those that its passes declare ([`pass::Declaration`]):
+//!    `deviatoric_stress` exists only if some material resists shear. The columns are [`fields::Columns`], one list of
+//!    tables of particles, facets, bonds, contacts and cells for host, device and files.
 //! 3. [`step::step`] is one time step as a list of passes. In leapfrog our particle's velocity is kicked
 //!    ([`pass::Pass::Kick`]), it drifts half a step, and there, with position and velocity both at the half
 //!    step, [`pass::Pass::StrainRate`] sums the velocity gradient over the neighbours in its list.
@@ -41,6 +42,7 @@ pub mod check;
 pub mod cli;
 pub mod contact;
 pub mod facet;
+pub mod fields;
 pub mod material;
 pub mod method;
 pub mod observable;
@@ -48,7 +50,6 @@ pub mod obstacle;
 mod open;
 pub mod output;
 pub mod pair;
-pub mod particles;
 pub mod pass;
 pub mod registry;
 pub mod rows;

@@ -242,10 +242,10 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("finite_strain", |m| m.finite_strain()),
     ("list_follows", |m| m.list_follows()),
     ("staged", |m| m.staged()),
-    ("correction", |m| m.corrects(|sums| sums.correction)),
-    ("current", |m| m.corrects(CorrectedKernel::current)),
-    ("evolved", |m| m.corrects(CorrectedKernel::evolved)),
-    ("kept_gradients", |m| m.corrects(CorrectedKernel::keeps_gradients)),
+    ("correction", |m| m.correction()),
+    ("current", |m| m.current()),
+    ("evolved", |m| m.evolved()),
+    ("kept_gradients", |m| m.kept_gradients()),
     ("difference", |m| m.corrects(|sums| sums.velocity_gradient == VelocityGradient::Difference)),
     ("hourglass", |m| m.hourglass),
     ("contact", |m| m.contact.with_energy()),
@@ -253,10 +253,10 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("colour_field", |m| m.contact.colour_field),
     ("zones_printed", |m| m.zoned(|zones| zones.form == zones::Form::Printed)),
     ("zones_all", |m| m.zoned(|zones| zones.normals == zones::Normals::All)),
-    ("zones_friction", |m| m.zoned(|zones| zones.friction)),
+    ("zones_friction", |m| m.zones_friction()),
     ("facets", |m| m.facets()),
     ("gap", |m| m.gap.is_some()),
-    ("along_normals", |m| m.gap == Some(GapForm::AlongNormals)),
+    ("along_normals", |m| m.along_normals()),
     ("obstacles", |m| m.obstacles),
     ("friction", |m| m.friction),
     ("listed_again", |m| m.listed_again()),
@@ -264,7 +264,7 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("plastic", |m| m.plastic()),
     ("heated", |m| m.heated()),
     ("quasi_static", |m| m.quasi_static.is_some()),
-    ("shear", |m| m.eulerian() && m.shear),
+    ("shear", |m| m.shears()),
     ("many_bodies", |m| m.many_bodies),
     ("coupling", |m| m.coupling),
     ("constraints", |m| m.constraints),
@@ -274,17 +274,17 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("viscosity", |m| m.viscosity),
     ("xsph", |m| m.xsph),
     ("artificial_stress", |m| m.artificial_stress.is_some()),
-    ("scalar_form", |m| m.artificial_stress == Some(ArtificialForm::Scalar)),
-    ("principal_form", |m| m.artificial_stress == Some(ArtificialForm::Principal)),
-    ("continuity", |m| m.eulerian() && m.density == Density::Continuity),
-    ("correct_rate", |m| m.gradient != Gradient::Plain),
-    ("quadratic_gradient", |m| m.gradient == Gradient::Quadratic),
-    ("adjoint", |m| m.gradient == Gradient::Adjoint),
+    ("scalar_form", |m| m.scalar_form()),
+    ("principal_form", |m| m.principal_form()),
+    ("continuity", |m| m.continuity()),
+    ("correct_rate", |m| m.corrects_rate()),
+    ("quadratic_gradient", |m| m.quadratic_gradient()),
+    ("adjoint", |m| m.adjoint()),
     ("internal_energy", |m| m.internal_energy),
     ("dissipated_energy", |m| m.dissipated_energy),
     ("dissipated_power", |m| m.dissipated_power()),
-    ("pair_velocity", |m| m.viscosity || m.internal_energy),
-    ("pair_volume", |m| m.viscosity || m.gradient == Gradient::Adjoint),
+    ("pair_velocity", |m| m.pair_velocity()),
+    ("pair_volume", |m| m.pair_volume()),
     ("compensated", |m| m.compensated),
 ];
 
@@ -325,13 +325,65 @@ impl Method {
     pub fn plastic(&self) -> bool {
         self.laws.iter().any(|law| law.yields())
     }
+    pub fn eulerian(&self) -> bool {
+        self.formulation == Formulation::Eulerian
+    }
+    /// Deviatoric stress is a state of its own.
+    pub fn shears(&self) -> bool {
+        self.eulerian() && self.shear
+    }
+    /// Volumetric strain is a state of its own.
+    pub fn continuity(&self) -> bool {
+        self.eulerian() && self.density == Density::Continuity
+    }
+    /// Gradients are corrected in some way.
+    pub fn corrects_rate(&self) -> bool {
+        self.gradient != Gradient::Plain
+    }
+    pub fn adjoint(&self) -> bool {
+        self.gradient == Gradient::Adjoint
+    }
+    pub fn quadratic_gradient(&self) -> bool {
+        self.gradient == Gradient::Quadratic
+    }
+    pub fn scalar_form(&self) -> bool {
+        self.artificial_stress == Some(ArtificialForm::Scalar)
+    }
+    pub fn principal_form(&self) -> bool {
+        self.artificial_stress == Some(ArtificialForm::Principal)
+    }
+    /// The force needs the velocities of pairs.
+    pub fn pair_velocity(&self) -> bool {
+        self.viscosity || self.internal_energy
+    }
+    /// The force needs the present volumes of pairs.
+    pub fn pair_volume(&self) -> bool {
+        self.viscosity || self.adjoint()
+    }
+    /// Kernels are corrected by shape functions.
+    pub fn correction(&self) -> bool {
+        self.corrects(|sums| sums.correction)
+    }
+    /// Corrected kernels, summed where the particles are now.
+    pub fn current(&self) -> bool {
+        self.corrects(CorrectedKernel::current)
+    }
+    /// Corrected kernels, with the deformation gradient as a state of its own.
+    pub fn evolved(&self) -> bool {
+        self.corrects(CorrectedKernel::evolved)
+    }
+    pub fn kept_gradients(&self) -> bool {
+        self.corrects(CorrectedKernel::keeps_gradients)
+    }
+    pub fn zones_friction(&self) -> bool {
+        self.zoned(|zones| zones.friction)
+    }
+    pub fn along_normals(&self) -> bool {
+        self.gap == Some(GapForm::AlongNormals)
+    }
     /// Words of [`FLAGS`] whose condition holds, in their order.
     pub fn flags(&self) -> Vec<&'static str> {
         FLAGS.iter().filter(|(_, holds)| holds(self)).map(|(word, _)| *word).collect()
-    }
-
-    fn eulerian(&self) -> bool {
-        self.formulation == Formulation::Eulerian
     }
 
     /// Whether kernels are corrected, and with this option.

@@ -89,13 +89,13 @@ fn nearest_image<S: Space>(params: &Params<S::Real>, mut x: S::Vec) -> S::Vec {
 #[inline(always)]
 pub fn separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
     let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
-    let particles = &state.particles;
-    let (mut reference, mut displacement) = (particles.reference_position[b], particles.displacement[b]);
+    let columns = &state.columns;
+    let (mut reference, mut displacement) = (columns.reference_position[b], columns.displacement[b]);
     if image != 0 {
         reference = mirror_point::<S>(&state.params, image, reference);
         displacement = mirror_vector::<S>(&state.params, image, displacement);
     }
-    let x = (particles.reference_position[a] - reference) + (particles.displacement[a] - displacement);
+    let x = (columns.reference_position[a] - reference) + (columns.displacement[a] - displacement);
     if state.method.periodic { nearest_image::<S>(&state.params, x) } else { x }
 }
 
@@ -191,18 +191,18 @@ impl<S: Space> Block<S> {
 #[inline(always)]
 pub fn reference_separation<S: Space>(state: &State<S>, a: usize, entry: u32) -> S::Vec {
     let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
-    let mut other = state.particles.reference_position[b];
+    let mut other = state.columns.reference_position[b];
     if image != 0 {
         other = mirror_point::<S>(&state.params, image, other);
     }
-    let x = state.particles.reference_position[a] - other;
+    let x = state.columns.reference_position[a] - other;
     if state.method.periodic { nearest_image::<S>(&state.params, x) } else { x }
 }
 
 /// v_b - v_a, the neighbour's velocity mirrored if it is an image.
 #[inline(always)]
 pub fn velocity_difference<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Vec {
-    let velocity = &state.particles.velocity;
+    let velocity = &state.columns.velocity;
     let mut v_b = velocity[pair.b];
     if pair.image != 0 {
         v_b = mirror_vector::<S>(&state.params, pair.image, v_b);

@@ -6,9 +6,9 @@
 
 use crate::backend::shader;
 use crate::contact::Potential;
+use crate::fields::Field;
 use crate::material::Law;
 use crate::method::Method;
-use crate::particles::Field;
 use crate::pass::Pass;
 use crate::smoothing::Smoothing;
 use crate::step;
@@ -111,7 +111,7 @@ impl Registry {
     /// # Errors
     /// The first that this registry lacks.
     pub fn fields(&self, method: &Method) -> Result<Vec<Field>, String> {
-        let needed = step::needed_fields(method);
+        let needed = step::fields(method);
         for &field in &needed {
             self.holds(Part::Field(field), "field", field.name())?;
         }

@@ -3,8 +3,8 @@
 //! Lengths, times and masses are in the scene's own units.
 
 use crate::contact;
+use crate::fields::Counts;
 use crate::material::NUMBERS;
-use crate::particles::Counts;
 use crate::tensor::Real;
 
 /// Numbers that stay the same during a run. Twin: `shaders/lib/params.wgsl`; a test compares the offsets.
@@ -84,12 +84,16 @@ pub struct Params<R> {
 }
 
 impl<R> Params<R> {
-    /// Blocks of the reduction over facets.
-    pub fn facet_blocks(&self) -> usize {
-        (self.facet_count as usize).div_ceil(REDUCTION_BLOCK)
-    }
     pub fn counts(&self) -> Counts {
-        Counts { particles: self.count as usize, facets: self.facet_count as usize, obstacles: self.obstacle_count as usize }
+        Counts {
+            particles: self.count as usize,
+            facets: self.facet_count as usize,
+            obstacles: self.obstacle_count as usize,
+            cells: self.cell_total as usize,
+            list_capacity: self.list_capacity as usize,
+            contact_capacity: self.contact_capacity as usize,
+            facet_capacity: self.facet_capacity as usize,
+        }
     }
 }
 
@@ -322,7 +326,3 @@ impl Fault {
 /// Low bits of a neighbour-list entry: the neighbour; the three bits above: the planes it is mirrored in.
 pub const NEIGHBOR_BITS: u32 = 29;
 pub const NEIGHBOR_MASK: u32 = (1 << NEIGHBOR_BITS) - 1;
-
-/// Cells that one block of the prefix sum covers; values that one block of a reduction covers.
-pub const SCAN_BLOCK: usize = 1024;
-pub const REDUCTION_BLOCK: usize = 256;

@@ -68,7 +68,7 @@ pub fn nodes<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iter
 
 #[inline(always)]
 fn volume<S: Space>(state: &State<S>, b: usize, reference: bool) -> S::Real {
-    if reference { state.particles.reference_volume[b] } else { state.volume(b) }
+    if reference { state.columns.reference_volume[b] } else { state.volume(b) }
 }
 
 /// m, p and M; s and G.
@@ -136,7 +136,7 @@ impl<S: Space> Shape<S> {
         if !state.method.corrected_kernel.is_some_and(|options| options.correction) {
             return Self::bare();
         }
-        let p = &state.particles;
+        let p = &state.columns;
         Self {
             factor: p.shape_factor[a],
             slope: p.shape_slope[a],

@@ -2,8 +2,8 @@
 //! `State<_<f64>>`; the GPU holds the same tables in buffers of the same layout.
 
 use crate::bond::BondTable;
+use crate::fields::{Columns, Field};
 use crate::method::Method;
-use crate::particles::Particles;
 use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
 use crate::tensor::{Real, Space};
 
@@ -27,49 +27,30 @@ pub struct State<S: Space> {
     pub constraints: Vec<Constraint<S::Real>>,
     /// Time and factor.
     pub course: Vec<[S::Real; 2]>,
-    pub particles: Particles<S>,
-    /// Particles in each cell while they are being binned; zero otherwise.
-    pub cell_count: Vec<u32>,
-    /// Where each cell's particles begin in `cell_particles`; one more than there are cells.
-    pub cell_start: Vec<u32>,
-    /// Cells' particles before each block of the prefix sum.
-    pub cell_block: Vec<u32>,
-    pub cell_particles: Vec<u32>,
-    /// Row of `list_capacity` entries for each particle.
-    pub neighbors: Vec<u32>,
-    /// Entry k of particle a's list of contacts at `k * count + a`.
-    pub contacts: Vec<u32>,
-    /// Entry k of facet e's list of contacts at `k * facet_count + e`.
-    pub facet_contacts: Vec<u32>,
-    /// Force on obstacle k from block j of the facets at `k * blocks + j`.
-    pub block_load: Vec<S::Vec>,
-    /// Force of particle a's zone on that entry; empty unless some bodies touch by zones.
-    pub zone_forces: Vec<S::Vec>,
-    /// Neighbours of the reference configuration, kept beside a list that follows the particles: entry k of
-    /// particle a at `k * count + a`, and with it V_b times the gradient at a of b's shape function.
-    pub kept_neighbors: Vec<u32>,
-    pub kept_gradients: Vec<S::Vec>,
+    /// All that has rows by count.
+    pub columns: Columns<S>,
     /// Total Lagrangian on the CPU.
     pub bond_table: BondTable<S>,
-    /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
-    pub block_bound: Vec<[S::Real; 4]>,
     /// How the descent to equilibrium goes on.
     pub balance: Balance<S::Real>,
-    /// What `bound_residual` finds in each block; empty unless equilibrium is sought.
-    pub block_residual: Vec<[S::Real; 8]>,
 }
 
 impl<S: Space> State<S> {
+    /// Bytes of all columns, and of what the CPU keeps beside them.
+    pub fn bytes(&self) -> u64 {
+        let columns: usize = Field::ALL.iter().map(|&field| self.columns.bytes(field).len()).sum();
+        (columns + self.bond_table.bytes()) as u64
+    }
     /// Entries of a particle's neighbour list.
     #[inline(always)]
     pub fn neighbors_of(&self, a: usize) -> &[u32] {
         let first = a * self.params.list_capacity as usize;
-        &self.neighbors[first..first + self.particles.neighbor_count[a] as usize]
+        &self.columns.neighbors[first..first + self.columns.neighbor_count[a] as usize]
     }
     /// Index of a particle's body.
     #[inline(always)]
     pub fn body_index(&self, a: usize) -> usize {
-        if self.method.many_bodies { self.particles.body[a] as usize } else { 0 }
+        if self.method.many_bodies { self.columns.body[a] as usize } else { 0 }
     }
     #[inline(always)]
     pub fn body(&self, a: usize) -> &Body<S::Real> {
@@ -78,19 +59,19 @@ impl<S: Space> State<S> {
     /// Reference volume times reference density: constant.
     #[inline(always)]
     pub fn mass(&self, a: usize) -> S::Real {
-        self.particles.reference_volume[a] * self.body(a).density
+        self.columns.reference_volume[a] * self.body(a).density
     }
     #[inline(always)]
     pub fn volume(&self, a: usize) -> S::Real {
-        self.particles.reference_volume[a] * (S::Real::of(1.0) + self.particles.volumetric_strain[a])
+        self.columns.reference_volume[a] * (S::Real::of(1.0) + self.columns.volumetric_strain[a])
     }
     #[inline(always)]
     pub fn density(&self, a: usize) -> S::Real {
-        self.body(a).density / (S::Real::of(1.0) + self.particles.volumetric_strain[a])
+        self.body(a).density / (S::Real::of(1.0) + self.columns.volumetric_strain[a])
     }
     #[inline(always)]
     pub fn position(&self, a: usize) -> S::Vec {
-        self.particles.reference_position[a] + self.particles.displacement[a]
+        self.columns.reference_position[a] + self.columns.displacement[a]
     }
     /// Weight of the kernel sums between two particles' bodies.
     #[inline(always)]
@@ -104,8 +85,8 @@ impl<S: Space> State<S> {
     /// Facets that a particle carries.
     #[inline(always)]
     pub fn facets_of(&self, a: usize) -> std::ops::Range<usize> {
-        let first = self.particles.first_facet[a] as usize;
-        first..first + self.particles.facets[a] as usize
+        let first = self.columns.first_facet[a] as usize;
+        first..first + self.columns.facets[a] as usize
     }
     #[inline(always)]
     pub fn facet_pair(&self, a: usize, b: usize) -> &FacetPair<S::Real> {
@@ -115,7 +96,7 @@ impl<S: Space> State<S> {
     #[inline(always)]
     pub fn facet_touched(&self, e: usize) -> bool {
         let is = |column: &[u32]| column.get(e).is_some_and(|&word| word > 0);
-        is(&self.particles.facet_pressed) || is(&self.particles.facet_obstacle)
+        is(&self.columns.facet_pressed) || is(&self.columns.facet_obstacle)
     }
     /// How the surface of particle a touches facet f, which is in the list of one of a's: nowhere else to be looked up
     /// if all surfaces touch alike.
@@ -124,13 +105,13 @@ impl<S: Space> State<S> {
         if self.params.facet_alike > 0 {
             return &self.facet_pairs[self.params.facet_alike as usize - 1];
         }
-        self.facet_pair(a, self.particles.facet_owner[f] as usize)
+        self.facet_pair(a, self.columns.facet_owner[f] as usize)
     }
     /// Particles of a particle's list of contacts.
     #[inline(always)]
     pub fn contacts_of(&self, a: usize) -> impl Iterator<Item = usize> {
         let count = self.params.count as usize;
-        (0..self.particles.contact_count[a] as usize).map(move |k| self.contacts[k * count + a] as usize)
+        (0..self.columns.contact_count[a] as usize).map(move |k| self.columns.contacts[k * count + a] as usize)
     }
     /// Factor of a boundary condition's course at an absolute time.
     pub fn course_factor(&self, constraint: &Constraint<S::Real>, time: S::Real) -> S::Real {

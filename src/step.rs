@@ -1,11 +1,12 @@
-//! A step read aloud: which passes, in which order, for each integrator; and which fields they need.
+//! A step read aloud: which passes, in which order, for each integrator; and the fields that these declare.
 
 mod corrected_kernel;
 
 use crate::contact::zones::Normals;
-use crate::method::{ArtificialForm, Density, Formulation, Gradient, Integrator, Method};
-use crate::particles::Field;
+use crate::fields::Field;
+use crate::method::{Density, Formulation, Gradient, Integrator, Method};
 use crate::pass::{Call, Pass, Stage};
+use std::collections::BTreeSet;
 
 fn call(pass: Pass) -> Call {
     Call { pass, stage: Stage::default() }
@@ -339,75 +340,25 @@ pub fn before_fetch(method: &Method, wanted: &[Field]) -> Vec<Call> {
     if behind && wanted.iter().any(|field| dependent.contains(field)) {
         force(method, &mut calls);
     }
-    if wanted.contains(&Field::HourglassEnergy) {
+    if method.hourglass && wanted.contains(&Field::HourglassEnergy) {
         calls.push(call(Pass::HourglassEnergy));
     }
     calls
 }
 
-/// Fields that the passes of this method read or write, and no others, in the order of their list.
-pub fn fields(method: &Method) -> Vec<Field> {
-    let needed = needed_fields(method);
-    Field::ALL.iter().copied().filter(|field| needed.contains(field)).collect()
-}
+/// Fields that a run keeps though no pass may touch them: a particle's number, by which outputs are put in order, and
+/// what the particle was packed and set off with, which observers read and a checkpoint holds.
+const KEPT: &[Field] = &[Field::Number, Field::ReferencePosition, Field::ReferenceVolume, Field::Displacement, Field::Velocity];
 
-/// The same in no order; some come twice.
-pub fn needed_fields(method: &Method) -> Vec<Field> {
-    use Field::*;
-    let staged = method.staged();
-    let eulerian = method.formulation == Formulation::Eulerian;
-    let lagrangian = method.formulation == Formulation::TotalLagrangian;
-    let adjoint = method.gradient == Gradient::Adjoint;
-    let continuity = eulerian && method.density == Density::Continuity;
-    let shear = eulerian && method.shear;
-    let wanted = [
-        (true, &[Number, ReferencePosition, ReferenceVolume, Displacement, Velocity, Acceleration][..]),
-        (true, &[Cell, NeighborCount]),
-        (eulerian, &[VolumetricStrain, VelocityGradient]),
-        (method.listed_again(), &[ListedDisplacement]),
-        (method.contact.any(), &[ContactCount]),
-        (method.contact.with_energy(), &[ContactEnergy]),
-        (method.contact.colour_field, &[ColourExcess]),
-        (method.contact.zones.is_some(), &[Surface, SurfaceNormal]),
-        (method.facets(), &[FirstFacet, Field::Facets, FacetOwner, FacetReferencePosition, FacetReferenceNormal, FacetArea]),
-        (method.facets(), &[FacetDisplacement, FacetNormal, FacetForce, FacetMoment, FacetPressure, FacetEnergy]),
-        (method.facets(), &[ContactEnergy]),
-        (method.gap.is_some(), &[FacetContactCount, FacetPressed, FacetGap, FacetSpread, FacetPull, FacetEdge]),
-        (method.friction, &[FacetMove, FacetHeat]),
-        (method.friction && method.gap.is_some(), &[FacetSlip, FacetTraction]),
-        (method.friction && method.obstacles, &[FacetObstacleSlip, ObstacleMove]),
-        (method.obstacles, &[FacetLoad, FacetObstacle, ObstacleDisplacement, ObstacleVelocity, ObstacleForce]),
-        (method.hourglass, &[HourglassEnergy]),
-        (method.gradient == Gradient::Quadratic, &[LinearCoefficient, QuadraticCoefficient, QuadraticStress]),
-        (!eulerian, &[DisplacementGradient]),
-        (lagrangian, &[BondStress]),
-        (lagrangian && method.gradient != Gradient::Plain, &[ReferenceCorrection]),
-        (method.memory(), &[InelasticStrain]),
-        (method.plastic(), &[EquivalentPlasticStrain]),
-        (method.heated(), &[Temperature]),
-        (method.plastic() && method.quasi_static.is_some(), &[EquilibriumInelasticStrain, EquilibriumPlasticStrain]),
-        (method.many_bodies, &[Body]),
-        (method.constraints, &[Field::Constraint]),
-        (method.compensated, &[DisplacementCarry]),
-        (method.compensated && method.quasi_static.is_none(), &[VelocityCarry]),
-        (method.quasi_static.is_some(), &[EquilibriumDisplacement]),
-        (shear, &[DeviatoricStress]),
-        (method.internal_energy, &[InternalEnergy, InternalPower]),
-        (method.dissipated_energy, &[DissipatedEnergy]),
-        (method.dissipated_power(), &[DissipatedPower]),
-        (method.xsph || method.velocity_filter, &[SmoothedVelocity]),
-        (eulerian && adjoint, &[Correction, CorrectedStress]),
-        (eulerian && !adjoint, &[Field::SpecificStress]),
-        (method.artificial_stress == Some(ArtificialForm::Scalar), &[ArtificialPressure]),
-        (method.artificial_stress == Some(ArtificialForm::Principal), &[Field::ArtificialStress]),
-        (staged, &[DisplacementStart, VelocityStart, DisplacementSum, VelocitySum]),
-        (staged && continuity, &[VolumetricStrainRate, VolumetricStrainStart, VolumetricStrainSum]),
-        (staged && shear, &[DeviatoricStressRate, DeviatoricStressStart, DeviatoricStressSum]),
-        (staged && method.internal_energy, &[InternalEnergyStart, InternalEnergySum]),
-        (staged && method.dissipated_power(), &[DissipatedEnergyStart, DissipatedEnergySum]),
-    ];
-    let own = method.corrected_kernel.map_or_else(Vec::new, |options| corrected_kernel::fields(options, staged));
-    wanted.iter().filter(|(on, _)| *on).flat_map(|(_, f)| f.iter().copied()).chain(own).collect()
+/// Fields that the passes of this method read or write as they declare, and those that every run keeps; no others. In
+/// the order of their list.
+pub fn fields(method: &Method) -> Vec<Field> {
+    let declared = passes(method).into_iter().flat_map(|pass| {
+        let declaration = pass.declaration();
+        [declaration.reads(method), declaration.written(method)].concat()
+    });
+    let needed: BTreeSet<Field> = declared.chain(KEPT.iter().copied()).collect();
+    needed.into_iter().collect()
 }
 
 /// All calls of a run of this method with the stage of the run that makes them; what precedes a fetch is that of all
@@ -418,15 +369,18 @@ pub fn calls(method: &Method) -> Vec<(&'static str, Call)> {
         ("begin_segment", begin_segment(method)),
         ("begin_run", begin_run(method)),
         ("step", step(method)),
-        ("before_fetch", before_fetch(method, &needed_fields(method))),
+        ("before_fetch", before_fetch(method, &fields(method))),
     ];
     stages.into_iter().flat_map(|(stage, calls)| calls.into_iter().map(move |call| (stage, call))).collect()
 }
 
 /// Every pass that a run of this method dispatches, each once, in order of first use.
 pub fn passes(method: &Method) -> Vec<Pass> {
+    // Of what precedes a fetch, all but the energy of hourglasses belongs to the steps too.
+    let fetched = before_fetch(method, &[Field::HourglassEnergy]);
+    let stages = [prepare(method), begin_segment(method), begin_run(method), step(method), fetched];
     let mut list: Vec<Pass> = Vec::new();
-    for (_, call) in calls(method) {
+    for call in stages.into_iter().flatten() {
         if !list.contains(&call.pass) {
             list.push(call.pass);
         }

@@ -2,10 +2,10 @@
 //! run for a short while; what its physics gives is the business of `scenes.rs`.
 
 use crate::common::{scene_file, scene_files};
-use lithosph::backend::{Choice, Columns, open};
+use lithosph::backend::{Choice, Fetched, open};
+use lithosph::fields::Field;
 use lithosph::method::Gradient;
 use lithosph::observable::Moment;
-use lithosph::particles::Field;
 use lithosph::scene::Scene;
 
 const FIELDS: [Field; 4] = [Field::Number, Field::ReferenceVolume, Field::Displacement, Field::Velocity];
@@ -27,7 +27,7 @@ fn scene(name: &str, overrides: &[&str]) -> Scene {
 }
 
 /// State after a short run; none where there is no such backend.
-fn short_run(scene: &Scene, choice: &Choice) -> Option<Columns> {
+fn short_run(scene: &Scene, choice: &Choice) -> Option<Fetched> {
     let mut backend = open(scene, choice).ok()?;
     let body = &scene.bodies[0];
     let duration = scene.file.duration.min(CROSSINGS * body.smoothing_length / body.material.sound_speed());
@@ -45,7 +45,7 @@ fn short_run(scene: &Scene, choice: &Choice) -> Option<Columns> {
 }
 
 /// Largest change of a component of momentum, over the sum of m|v| at the start, or of m c for bodies at rest.
-fn momentum_drift(scene: &Scene, columns: &Columns) -> f64 {
+fn momentum_drift(scene: &Scene, columns: &Fetched) -> f64 {
     let moment = Moment::new(scene, 0.0, 0, columns);
     let (mut change, mut scale, mut at_rest) = ([0.0; 3], 0.0, 0.0);
     for (i, particle) in scene.particles.iter().enumerate() {

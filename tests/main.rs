@@ -5,6 +5,7 @@ mod cli;
 mod common;
 mod conservation;
 mod contact;
+mod fields;
 mod material;
 mod observable;
 mod obstacle;

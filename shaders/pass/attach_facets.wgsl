@@ -1,5 +1,4 @@
 // Tells each facet the particle that carries it. Twin: src/pass/attach_facets.rs
-#import invocation
 #import params
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -7,12 +6,7 @@
 @group(0) @binding(_) var<storage, read> facets: array<u32>;
 @group(0) @binding(_) var<storage, read_write> facet_owner: array<u32>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let end = first_facet[a] + facets[a];
     for (var e = first_facet[a]; e < end; e++) {
         facet_owner[e] = a;

@@ -2,7 +2,6 @@
 // free goes on as far as between the last two equilibria, and all velocities are set to zero. What plastic bodies
 // remember of the load step before is settled.
 // Twin: src/pass/begin_load.rs
-#import invocation
 #import course_integral
 #if compensated
 #import compensated
@@ -25,12 +24,7 @@
 @group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let before = displacement[a];
     let increment = increment_of(a, before - equilibrium_displacement[a]);
     equilibrium_displacement[a] = before;

@@ -1,5 +1,4 @@
 // Cell of each particle and number of particles of each cell. Twin: src/pass/bin_cells.rs
-#import invocation
 #import cell
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -11,12 +10,7 @@
 // Particles are sorted where they are in the reference configuration.
 override stage_reference: bool;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let i = index_of(invocation);
-    if i >= params.count || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
+fn of_particle(i: u32) {
     let place = cell_of(reference_position[i] + select(displacement[i], Vec(), stage_reference));
     let index = (place.z * params.cells_y + place.y) * params.cells_x + place.x;
     cell[i] = index;

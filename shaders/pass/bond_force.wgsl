@@ -3,7 +3,6 @@
 // rho_0 a_a = sum V_b (P_a K_a^-1 + P_b K_b^-1) grad_a W_ab + hourglass force
 //
 // Twin: src/pass/bond_force.rs
-#import invocation
 #if hourglass
 #import displacement_difference
 #import hourglass_stiffness
@@ -30,13 +29,7 @@
 #endif
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     acceleration[a] = sum_bonds(a, row) * (1.0 / body_of(a).density);
 }
 

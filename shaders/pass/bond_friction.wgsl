@@ -1,6 +1,5 @@
 // Adds Monaghan's viscosity between the ends of the bonds of the reference configuration, the kernel's slope at the
 // distance there and the force along the present separation. Twin: src/pass/bond_friction.rs
-#import invocation
 #import displacement_difference
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -13,13 +12,7 @@
 @group(0) @binding(_) var<storage, read_write> dissipated_power: array<real>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let own_body = body_of(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];

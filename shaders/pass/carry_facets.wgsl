@@ -1,6 +1,5 @@
 // Adds to what the bonds carry the stress that the levers of a particle's facets make: (sum dU/dF)/V K^-1.
 // Twin: src/pass/carry_facets.rs
-#import invocation
 #import params
 #import facet_touched
 
@@ -14,10 +13,8 @@
 #endif
 @group(0) @binding(_) var<storage, read_write> bond_stress: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u || facets[a] == 0u {
+fn of_particle(a: u32) {
+    if facets[a] == 0u {
         return;
     }
     var sum = Mat();

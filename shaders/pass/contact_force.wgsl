@@ -1,7 +1,6 @@
 // Adds the acceleration by contacts that have an energy, and finds each particle's part of it. By a potential
 // m_a a_a += sum strength/range (-phi'(r/range)) x_ab/r, half of the pairs' energy; by the colour field
 // m_a a_a -= sum k V_a V_b (<c_a - c0> + <c_b - c0>) grad_a W_ab, (k/2) V_a <c_a - c0>^2. Twin: src/pass/contact_force.rs
-#import invocation
 #import separation
 #import mass
 #import contact_pair
@@ -24,12 +23,7 @@
 @group(0) @binding(_) var<storage, read_write> contact_energy: array<real>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let listed = contact_count[a];
     var energy: real = 0.0;
     var force = Vec();

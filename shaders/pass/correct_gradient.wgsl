@@ -1,5 +1,4 @@
 // Inverse of K_a = sum V_b (x_b - x_a) (x) grad_a W_ab (Bonet & Lok 1999). Twin: src/pass/correct_gradient.rs
-#import invocation
 #import pair
 #import coupling
 #import inverse
@@ -12,13 +11,7 @@
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
 @group(0) @binding(_) var<storage, read_write> correction: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let center = center_of(a);
     let count = neighbor_count[a];
     var moment = Mat();

@@ -1,5 +1,4 @@
 // Coefficients of the gradient that is exact for quadratic displacements. Twin: src/pass/correct_quadratic.rs
-#import invocation
 #import bond
 
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -11,13 +10,7 @@
 // A pivot below this part of the largest: the neighbours do not define the fit.
 const SMALLEST_PIVOT: real = 1e-3;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let h = body_of(a).smoothing_length;
     var moment = moment_of(a, row, h);
     if invert(&moment) {

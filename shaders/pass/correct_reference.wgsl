@@ -1,5 +1,4 @@
 // K_a^-1, K_a = sum V_b (X_b - X_a) (x) grad_a W_ab (Bonet & Lok 1999). Twin: src/pass/correct_reference.rs
-#import invocation
 #import bond
 #import inverse
 
@@ -7,13 +6,7 @@
 @group(0) @binding(_) var<storage, read> reference_volume: array<real>;
 @group(0) @binding(_) var<storage, read_write> reference_correction: array<Sym>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let h = body_of(a).smoothing_length;
     let center = reference_position[a];
     let count = neighbor_count[a];

@@ -1,6 +1,5 @@
 // H_a = [sum V_b (u_b - u_a) (x) grad_a W_ab] K_a^-1, the stress P_a of the material, and what the bonds carry of
 // it, P_a K_a^-1 - alpha E H_a. Twin: src/pass/deform.rs
-#import invocation
 #import linear_gradient
 #import laws
 #if hourglass
@@ -38,13 +37,7 @@
 @group(0) @binding(_) var<storage, read_write> displacement_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read_write> bond_stress: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let sum = sum_bonds(a, row);
     let linear = corrected(a, sum);
 #if quadratic_gradient

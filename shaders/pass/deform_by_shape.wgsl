@@ -1,6 +1,5 @@
 // H_a = sum V_b (u_b - u_a) (x) grad psi_b(X_a) in the reference configuration, Shutov & Klyuchantsev 2019 (8).
 // Twin: src/pass/deform_by_shape.rs
-#import invocation
 #if kept_gradients
 #import params
 #import mirror
@@ -21,13 +20,7 @@
 #endif
 @group(0) @binding(_) var<storage, read_write> displacement_gradient: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     displacement_gradient[a] = sum_nodes(a, row);
 }
 

@@ -1,6 +1,5 @@
 // One step toward equilibrium: u += back v, then v = keep v + push a, then u += forward v, with a the out-of-balance
 // acceleration. Twin: src/pass/descend.rs
-#import invocation
 #import unbalanced
 #if compensated
 #import compensated
@@ -18,12 +17,7 @@
 @group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let before = velocity[a];
     let after = before * balance.keep + unbalanced(a) * balance.push;
     let increment = before * balance.back + after * balance.forward;

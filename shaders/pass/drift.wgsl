@@ -1,5 +1,4 @@
 // u += part step v, or the smoothed velocity for XSPH. Twin: src/pass/drift.rs
-#import invocation
 #import params
 #import moving_velocity
 #if compensated
@@ -24,12 +23,7 @@
 // Part of the step that the drift takes.
 override stage_part: real;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let increment = moving_velocity(a) * (stage_part * clock.step);
 #if compensated
     let result = compensated_add(displacement[a], displacement_carry[a], increment);

@@ -1,7 +1,6 @@
 // The velocity gradient L_a = sum V_b (v_b - v_a) (x) grad psi_b(x_a), Shutov & Klyuchantsev 2019 (6), which as
 // printed has v_b alone; and what it does to F, (9): in leapfrog F <- exp(step L) F, in Runge-Kutta the rate L F.
 // Both are written for H = F - 1, so that f32 keeps small strains. Twin: src/pass/evolve_deformation.rs
-#import invocation
 #import shape_node
 #import shape_columns
 
@@ -21,13 +20,7 @@
 // Terms of the exponential's series: all digits for steps that turn or stretch by a tenth.
 const EXPONENTIAL_TERMS: u32 = 10u;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let gradient = velocity_gradient_of(a, row);
     let h = displacement_gradient[a];
 #if staged

@@ -1,6 +1,5 @@
 // Puts each particle into its cell's range, taking the counts back down to zero. Threads race for places:
 // sort_cells settles the order. Twin: src/pass/fill_cells.rs
-#import invocation
 #import params
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -9,12 +8,7 @@
 @group(0) @binding(_) var<storage, read_write> cell_count: array<atomic<u32>>;
 @group(0) @binding(_) var<storage, read_write> cell_particles: array<u32>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let i = index_of(invocation);
-    if i >= params.count || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
+fn of_particle(i: u32) {
     let own = cell[i];
     let rank = atomicSub(&cell_count[own], 1u) - 1u;
     cell_particles[cell_start[own] + rank] = i;

@@ -1,5 +1,4 @@
 // The velocity filter: what XSPH became in Fuller's code. Twin: src/pass/filter_velocity.rs
-#import invocation
 #import params
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -9,12 +8,7 @@
 @group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
 #if constraints
     if constraint[a] != 0u {
         return;

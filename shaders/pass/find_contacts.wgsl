@@ -1,6 +1,5 @@
 // Lists the particles that each particle may touch before the list is made anew: near in the present configuration,
 // and of another body or far apart in the reference configuration. Twin: src/pass/find_contacts.rs
-#import invocation
 #import visit_cells
 #import separation
 #import contact_pair
@@ -21,12 +20,7 @@ struct Search {
     displacement: Vec,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let search = Search(a, reference_position[a], displacement[a]);
     listed_displacement[a] = search.displacement;
     let found = visit_cells(search, search.reference + search.displacement, 0u);

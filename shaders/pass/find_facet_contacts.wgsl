@@ -1,6 +1,5 @@
 // Lists the facets that each facet may touch before the list is made anew: near, facing, and of another body or far
 // apart in the reference configuration. Twin: src/pass/find_facet_contacts.rs
-#import invocation
 #import visit_cells
 #import facet_pair
 #import facet
@@ -28,12 +27,7 @@ struct Search {
     own: Seat,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let e = index_of(invocation);
-    if e >= params.facet_count || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
+fn of_facet(e: u32) {
     let own = seat(e);
     let found = visit_cells(Search(e, facet_owner[e], own), own.reference + own.displacement, 0u);
     if found == TOO_MANY {

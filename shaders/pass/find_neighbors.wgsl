@@ -1,6 +1,5 @@
 // Lists the particles within reach of each particle, mirror images included, in cell order.
 // Twin: src/pass/find_neighbors.rs
-#import invocation
 #import visit_cells
 #import separation
 #if coupling
@@ -33,13 +32,7 @@ struct Search {
 #endif
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let search = search_of(a, row);
 #if list_follows
     if !stage_reference {

@@ -1,6 +1,5 @@
 // Normals of surface particles, Fuller (4.1): sum W_ab (x_a - x_b)/r_ab made a unit vector, over all neighbours of the
 // same body or over those inside alone; zero where nothing is left to sum. Twin: src/pass/find_normals.rs
-#import invocation
 #import own_neighbor
 #import kernel
 
@@ -10,13 +9,7 @@
 @group(0) @binding(_) var<storage, read> surface: array<u32>;
 @group(0) @binding(_) var<storage, read_write> surface_normal: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     var normal = Vec();
     if surface[a] != 0u {
         normal = normal_of(a, row);

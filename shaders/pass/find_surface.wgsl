@@ -1,6 +1,5 @@
 // Finds which particles lie on the surface of their body: those with no more than a share of the most neighbours in the
 // kernel's range, and which of them are corners. Twin: src/pass/find_surface.rs
-#import invocation
 #import own_neighbor
 #import zones
 
@@ -9,13 +8,7 @@
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> surface: array<u32>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let listed = neighbor_count[a];
     var count = 0u;
     for (var k = 0u; k < listed; k++) {

@@ -7,7 +7,6 @@
 // a_a = (1/rho_a) sum V_b (sigma_a K_a^-1 + sigma_b K_b^-1) grad_a W_ab + the terms of Pi and R as above.
 //
 // Twin: src/pass/force.rs
-#import invocation
 #import pair
 #import coupling
 #import mass
@@ -78,13 +77,7 @@ struct Sums {
     dissipated_power: real,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let sums = sum_pairs(a, row);
     acceleration[a] = sums.acceleration;
 #if internal_energy

@@ -1,6 +1,5 @@
 // Energy of the hourglass term of one particle, V_a (alpha E/2) sum V_b w |H_a X_ab - u_ab|^2 with w = -W'(R)/R and
 // the linear H. Twin: src/pass/hourglass_energy.rs
-#import invocation
 #import linear_gradient
 #import hourglass_stiffness
 
@@ -20,13 +19,7 @@
 #endif
 @group(0) @binding(_) var<storage, read_write> hourglass_energy: array<real>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let own_body = body_of(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];

@@ -1,6 +1,5 @@
 // Keeps the neighbours of the reference configuration, and V_b times the gradient at a of b's shape function there,
 // for a list that will follow the particles. Twin: src/pass/keep_gradients.rs
-#import invocation
 #import shape_node
 #import shape_columns
 
@@ -13,13 +12,7 @@
 @group(0) @binding(_) var<storage, read_write> kept_neighbors: array<u32>;
 @group(0) @binding(_) var<storage, read_write> kept_gradients: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let center = center_of(a, row);
     let own = shape_of(a);
     kept_count[a] = center.count;

@@ -1,5 +1,4 @@
 // v += part step a, then the boundary conditions. Twin: src/pass/kick.rs
-#import invocation
 #import acceleration
 #if compensated
 #import compensated
@@ -28,12 +27,7 @@ override stage_time: real;
 // Part of the step that the kick takes.
 override stage_part: real;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let part = stage_part * clock.step;
     let time = clock.start + clock.elapsed + stage_time * clock.step;
     let increment = acceleration_at(a, time) * part;

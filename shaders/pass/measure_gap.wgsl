@@ -1,6 +1,5 @@
 // Distance of each facet from the surface that faces it, and what follows from it. A facet that presses on the other
 // surface tells so to those in its list. Twin: src/pass/measure_gap.rs
-#import invocation
 #import facet_pair
 #import facet
 #if friction
@@ -39,12 +38,7 @@ struct Sums {
     pair: FacetPair,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let e = index_of(invocation);
-    if e >= params.facet_count || clock.running == 0u {
-        return;
-    }
+fn of_facet(e: u32) {
     leave_alone(e);
     if facet_contact_count[e] == 0u {
         return;

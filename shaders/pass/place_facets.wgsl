@@ -1,5 +1,4 @@
 // Moves facets with their particles: x = x_p + F_p (X - X_p), n = F_p^-T N/|F_p^-T N|. Twin: src/pass/place_facets.rs
-#import invocation
 #import params
 #import facet_lever
 
@@ -16,12 +15,7 @@
 @group(0) @binding(_) var<storage, read_write> facet_pressed: array<u32>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let e = index_of(invocation);
-    if e >= params.facet_count || clock.running == 0u {
-        return;
-    }
+fn of_facet(e: u32) {
     let a = facet_owner[e];
     let gradient = displacement_gradient[a];
     let moved = displacement[a] + mat_vec(gradient, lever(e));

@@ -1,7 +1,6 @@
 // Force of other bodies' surfaces on each facet, as the facet that measures a gap and as one that another measures
 // from, and the derivative of the energy by the deformation gradient of the facet's particle.
 // Twin: src/pass/press_facets.rs
-#import invocation
 #import facet_pair
 #import facet_lever
 #import facet
@@ -33,12 +32,7 @@ struct Load {
     aside: Mat,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let e = index_of(invocation);
-    if e >= params.facet_count || clock.running == 0u {
-        return;
-    }
+fn of_facet(e: u32) {
     if facet_pressed[e] == 0u {
         facet_force[e] = Vec();
         facet_moment[e] = Mat();

@@ -1,6 +1,5 @@
 // Force of each surface particle, the owner of a zone, on each particle in its list of contacts, Fuller (4.2) and (4.3).
 // Zero where the other is not inside. Twin: src/pass/push_intruders.rs
-#import invocation
 #import own_neighbor
 #import contact_pair
 #import zones
@@ -17,13 +16,7 @@
 @group(0) @binding(_) var<storage, read> surface_normal: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> zone_forces: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     if surface[a] == 0u {
         return;
     }

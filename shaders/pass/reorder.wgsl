@@ -1,6 +1,5 @@
 // Moves a carried field into cell order, so that neighbours in space are neighbours in memory; dispatched once
 // for each field, of `words` numbers a particle. Twin: src/pass/reorder.rs
-#import invocation
 #import params
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -10,12 +9,7 @@
 
 override words: u32;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let i = index_of(invocation);
-    if i >= params.count {
-        return;
-    }
+fn of_particle(i: u32) {
     // Over a segment's end it copies all the same: what follows takes the destination without asking.
     var place = i;
     if clock.running != 0u {

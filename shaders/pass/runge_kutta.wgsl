@@ -2,7 +2,6 @@
 // Twin: src/pass/runge_kutta.rs
 //
 // Rates are summed, not states, so that f32 adds small numbers to small numbers until the last stage.
-#import invocation
 #import acceleration
 #import moving_velocity
 #if compensated
@@ -67,12 +66,7 @@ override stage_of_rate: real;
 override stage_first: bool;
 override stage_last: bool;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     motion(a);
 #if shear
     advance_stress(a);

@@ -4,7 +4,6 @@
 //
 // with the gradient at b of the shape function of a; in the reference configuration P stands for sigma and V_b is the
 // reference volume. Twin: src/pass/shape_force.rs
-#import invocation
 #import shape_node
 #import shape_columns
 
@@ -18,13 +17,7 @@
 @group(0) @binding(_) var<storage, read> shape_stress: array<Mat>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let center = center_of(a, row);
     var sum = Vec();
     for (var k = 0u; k <= center.count; k++) {

@@ -6,7 +6,6 @@
 // d alpha/dx = -alpha^2 (s + (d beta/dx)^T p + m beta).
 //
 // Twin: src/pass/shape_function.rs and src/shape.rs
-#import invocation
 #import inverse
 #import shape_node
 
@@ -22,13 +21,7 @@
 @group(0) @binding(_) var<storage, read_write> shape_factor_gradient: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> shape_slope_gradient: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let shape = corrected(center_of(a, row));
     shape_factor[a] = shape.factor;
     shape_slope[a] = shape.slope;

@@ -2,7 +2,6 @@
 // configuration Kirchhoff's, in the reference configuration the first Piola-Kirchhoff stress; and J - 1, for the
 // present volumes. A law that remembers takes its memory to the end of the step first.
 // Twin: src/pass/shape_stress.rs
-#import invocation
 #import body
 #import laws
 
@@ -16,12 +15,7 @@
 #endif
 @group(0) @binding(_) var<storage, read_write> shape_stress: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let own = body_of(a);
     let gradient = displacement_gradient[a];
 #if memory

@@ -1,6 +1,5 @@
 // Velocity averaged over neighbours, Fuller (3.2): v_a + weight sum (m_b/rho_ab)(v_b - v_a) W_ab.
 // Twin: src/pass/smooth_velocity.rs
-#import invocation
 #import pair
 #import pair_velocity
 #import coupling
@@ -15,13 +14,7 @@
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> smoothed_velocity: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let center = center_of(a);
     let velocity_a = velocity[a];
     let density_a = density(a);

@@ -1,17 +1,11 @@
 // Ascending order inside each cell, so that sums do not depend on the threads. Twin: src/pass/sort_cells.rs
-#import invocation
 #import params
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(_) var<storage, read_write> cell_particles: array<u32>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let cell = index_of(invocation);
-    if cell >= params.cell_total || clock.running == 0u || clock.rebuild == 0u {
-        return;
-    }
+fn of_cell(cell: u32) {
     // A cell holds few particles: insertion sort.
     let first = cell_start[cell];
     let end = cell_start[cell + 1u];

@@ -1,6 +1,5 @@
 // Stress in the form that the pair force sums: sigma/rho^2 (plain) or sigma K^-1 (adjoint), and the artificial
 // stress R. Twin: src/pass/specific_stress.rs
-#import invocation
 #import body
 #import pressures
 
@@ -22,12 +21,7 @@
 @group(0) @binding(_) var<storage, read_write> artificial_stress: array<Sym>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let own = body_of(a);
     let strain = volumetric_strain[a];
     let pressure_a = -kirchhoff(own, strain) / (1.0 + strain);

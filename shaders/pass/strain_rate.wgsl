@@ -4,7 +4,6 @@
 //
 // Corrected: weights V_b, and the sum is multiplied by the inverse of sum V_b (x_b - x_a) (x) grad_a W_ab,
 // which makes it exact for linear velocity fields (Bonet & Lok 1999).
-#import invocation
 #import pair
 #import pair_velocity
 #import coupling
@@ -24,13 +23,7 @@
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> velocity_gradient: array<Mat>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
 #if correct_rate
     velocity_gradient[a] = corrected_gradient(a, row);
 #else

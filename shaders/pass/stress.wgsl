@@ -2,7 +2,6 @@
 // middle of the step. Twin: src/pass/stress.rs
 //
 // The rotation is Cayley's, Q = (1 - A/2)^-1 (1 + A/2) with A = step Omega (Hughes & Winget 1980).
-#import invocation
 #import params
 #if shear
 #import body
@@ -34,12 +33,7 @@
 #endif
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let gradient = middle_gradient(velocity_gradient[a]);
 #if shear
     let half = sym_scale(deviatoric_rate(body_of(a).shear_modulus, gradient), 0.5 * clock.step);

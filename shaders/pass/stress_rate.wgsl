@@ -1,6 +1,5 @@
 // Rates of volumetric strain, Fuller (2.21), and of deviatoric stress, (2.45), for the Runge-Kutta stages.
 // Twin: src/pass/stress_rate.rs
-#import invocation
 #import params
 #if shear
 #import body
@@ -18,12 +17,7 @@
 @group(0) @binding(_) var<storage, read_write> volumetric_strain_rate: array<real>;
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let gradient = velocity_gradient[a];
 #if shear
     let spun = mat_mat(skew_part(gradient), mat_of_sym(deviatoric_stress[a]));

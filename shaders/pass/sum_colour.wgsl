@@ -1,6 +1,5 @@
 // By how much the colour of the bodies that a particle touches exceeds the threshold, <sum V_b W_ab - c0>.
 // Twin: src/pass/sum_colour.rs
-#import invocation
 #import separation
 #import kernel
 #import contact_pair
@@ -13,12 +12,7 @@
 @group(0) @binding(_) var<storage, read> contact_count: array<u32>;
 @group(0) @binding(_) var<storage, read_write> colour_excess: array<real>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let listed = contact_count[a];
     var colour: real = 0.0;
     var threshold: real = 0.0;

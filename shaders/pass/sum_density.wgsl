@@ -1,5 +1,4 @@
 // rho_a = sum m_b W_ab, the particle itself included, Fuller (2.22). Twin: src/pass/sum_density.rs
-#import invocation
 #import pair
 #import mass
 #import coupling
@@ -10,13 +9,7 @@
 @group(0) @binding(_) var<storage, read> reference_volume: array<real>;
 @group(0) @binding(_) var<storage, read_write> volumetric_strain: array<real>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let row = index_of(invocation);
-    if row >= params.chunk || clock.running == 0u {
-        return;
-    }
-    let a = params.first + row;
+fn of_particle(a: u32, row: u32) {
     let center = center_of(a);
     let count = neighbor_count[a];
     var density = mass(a) * weight(0.0, center.h);

@@ -1,6 +1,5 @@
 // Adds the acceleration by the facets that a particle carries, and finds the energy and the heat of their contact.
 // Twin: src/pass/surface_force.rs
-#import invocation
 #import mass
 #import facet_touched
 
@@ -19,12 +18,7 @@
 #endif
 #endif
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     var force = Vec();
     var energy: real = 0.0;
     let end = first_facet[a] + facets[a];

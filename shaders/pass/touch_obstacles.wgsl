@@ -1,5 +1,4 @@
 // Force of the rigid obstacle that a facet is deepest in, and friction. Twin: src/pass/touch_obstacles.rs
-#import invocation
 #import params
 #import body_index
 #import facet_lever
@@ -36,12 +35,7 @@ struct Touch {
     heat: real,
 }
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let e = index_of(invocation);
-    if e >= params.facet_count || clock.running == 0u {
-        return;
-    }
+fn of_facet(e: u32) {
     // Counted from 1.
     var found = 0u;
     var nearest = Nearest(0.0, Vec());

@@ -1,6 +1,5 @@
 // Adds the acceleration by zones: what owners do to a particle, less what it does to intruders as an owner, so that
 // momentum is kept to the last digit. Twin: src/pass/zone_force.rs
-#import invocation
 #import mass
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
@@ -11,12 +10,7 @@
 @group(0) @binding(_) var<storage, read> zone_forces: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
-@compute @workgroup_size(64)
-fn main(invocation: Invocation) {
-    let a = index_of(invocation);
-    if a >= params.count || clock.running == 0u {
-        return;
-    }
+fn of_particle(a: u32) {
     let listed = contact_count[a];
     var force = Vec();
     for (var k = 0u; k < listed; k++) {

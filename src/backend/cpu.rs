@@ -1,8 +1,8 @@
 //! The CPU path: the twins, on all cores. In f64 it is the reference, and the fallback where there is no GPU.
 
-use super::{Backend, Columns};
+use super::{Backend, Fetched};
 use crate::bond::BondTable;
-use crate::particles::{Field, Type};
+use crate::fields::{Field, Type};
 use crate::pass::{Call, Pass};
 use crate::rows::Clock;
 use crate::state::State;
@@ -53,10 +53,7 @@ impl<S: Space> Backend for Cpu<S> {
     }
 
     fn bytes(&self) -> u64 {
-        let state = &self.state;
-        let columns: usize = state.particles.present().iter().map(|&f| state.particles.bytes(f).len()).sum();
-        let words = state.cell_count.len() + state.cell_start.len() + state.cell_particles.len() + state.neighbors.len();
-        (columns + 4 * words + state.bond_table.bytes()) as u64
+        self.state.bytes()
     }
 
     fn begin_segment(&mut self, start: f64, duration: f64, steps: u32, first: bool) -> Result<(), String> {
@@ -99,22 +96,22 @@ impl<S: Space> Backend for Cpu<S> {
         Ok(self.state.clock.to_f64())
     }
 
-    fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String> {
+    fn fetch(&mut self, fields: &[Field]) -> Result<Fetched, String> {
         let running = std::mem::replace(&mut self.state.clock.running, 1);
         self.run(&step::before_fetch(&self.state.method, fields));
         self.state.clock.running = running;
-        let column = |&field: &Field| (field, numbers::<S>(field, self.state.particles.bytes(field)));
+        let column = |&field: &Field| (field, numbers::<S>(field, self.state.columns.bytes(field)));
         Ok(fields.iter().map(column).collect())
     }
 
     fn save(&mut self) -> Result<BTreeMap<Field, Vec<u8>>, String> {
-        let particles = &self.state.particles;
-        Ok(particles.present().into_iter().filter(|f| f.carried()).map(|f| (f, particles.bytes(f).to_vec())).collect())
+        let columns = &self.state.columns;
+        Ok(columns.present().into_iter().filter(|f| f.carried()).map(|f| (f, columns.bytes(f).to_vec())).collect())
     }
 
     fn load(&mut self, columns: &BTreeMap<Field, Vec<u8>>) -> Result<(), String> {
         for (&field, bytes) in columns {
-            let column = self.state.particles.bytes_mut(field);
+            let column = self.state.columns.bytes_mut(field);
             if column.len() != bytes.len() {
                 return Err(format!(
                     "the checkpoint's {} has {} bytes where the scene has {}",

@@ -1,12 +1,12 @@
 //! What a backend does for a run.
 
-use crate::particles::Field;
+use crate::fields::Field;
 use crate::pass::Call;
 use crate::rows::Clock;
 use std::collections::BTreeMap;
 
 /// Columns as the host keeps them: f64, padded as the space pads them; integers as whole numbers.
-pub type Columns = BTreeMap<Field, Vec<f64>>;
+pub type Fetched = BTreeMap<Field, Vec<f64>>;
 
 /// The machine that steps a run.
 pub trait Backend {
@@ -20,7 +20,7 @@ pub trait Backend {
     /// Advances by some steps, as many as keep the host responsive, and tells how far the device is.
     fn advance(&mut self) -> Result<Clock<f64>, String>;
     /// Brings fields to the host.
-    fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String>;
+    fn fetch(&mut self, fields: &[Field]) -> Result<Fetched, String>;
     /// Carried fields as raw bytes in their present order, for a checkpoint that resumes bit for bit.
     fn save(&mut self) -> Result<BTreeMap<Field, Vec<u8>>, String>;
     fn load(&mut self, columns: &BTreeMap<Field, Vec<u8>>) -> Result<(), String>;

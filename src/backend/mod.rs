@@ -6,7 +6,7 @@ pub mod gpu;
 mod machine;
 pub mod shader;
 
-pub use machine::{Backend, Columns};
+pub use machine::{Backend, Fetched};
 
 use crate::scene::Scene;
 use crate::tensor::{Line, Plane, Solid};

@@ -4,7 +4,8 @@
 //! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`, `smoothing`,
 //! `potential` and `laws` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
 //! [`Method::flags`].
-//! `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
+//! A pass with one invocation for each of its rows defines `of_particle`, `of_facet` or `of_cell`; the entry point that
+//! calls it is made from the pass's declaration. `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
 //! are bound by the variables' names, which [`Shader::entry`] tells.
 
 mod contacts;
@@ -15,7 +16,7 @@ use crate::material::Law;
 use crate::method::{FLAGS, Method};
 use crate::pass::Pass;
 use crate::registry::{File, Registry};
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 
 macro_rules! library {
     ($($folder:ident: $($stem:ident),*;)*) => {
@@ -81,7 +82,7 @@ pub fn compose_from(registry: &Registry, pass: Pass, method: &Method) -> Result<
         laws: &method.laws,
         potentials: &method.contact.potentials,
     };
-    composed(registry, pass.name(), pass.source(), &choice)
+    composed(registry, pass.name(), pass.source(), pass.declaration().entry(), &choice)
 }
 
 /// The same for any text; `name` is for messages.
@@ -89,15 +90,20 @@ pub fn compose_from(registry: &Registry, pass: Pass, method: &Method) -> Result<
 /// # Panics
 /// As [`compose`].
 pub fn compose_text(name: &str, source: &str, choice: &Choice) -> String {
-    composed(Registry::full(), name, source, choice).unwrap_or_else(|wrong| panic!("{wrong}")).text
+    composed(Registry::full(), name, source, None, choice).unwrap_or_else(|wrong| panic!("{wrong}")).text
 }
 
-fn composed(registry: &Registry, name: &str, source: &str, choice: &Choice) -> Result<Composed, String> {
+/// `entry` is what is added to the source, which then need not import what an entry point takes.
+fn composed(registry: &Registry, name: &str, source: &str, entry: Option<String>, choice: &Choice) -> Result<Composed, String> {
     if let Some(flag) = choice.flags.iter().find(|flag| !is_flag(flag)) {
         return Err(format!("flag {flag} is missing from the list of flags in src/method.rs"));
     }
     let mut composer = Composer { registry, choice, imported: Vec::new(), text: String::new() };
+    if entry.is_some() {
+        composer.add(name, "#import invocation")?;
+    }
     composer.add(name, source)?;
+    composer.text.push_str(entry.as_deref().unwrap_or_default());
     Ok(Composed { text: number_bindings(&composer.text), imports: composer.imported })
 }
 
@@ -202,6 +208,9 @@ pub struct Binding {
     pub binding: u32,
     pub name: String,
     pub kind: Access,
+    /// Whether the entry point loads from it, and stores to it.
+    pub reads: bool,
+    pub writes: bool,
 }
 
 /// What the host must know of an entry point.
@@ -241,7 +250,7 @@ impl Shader {
         let usage = self.info.get_entry_point(index);
         let mut bindings: Vec<Binding> = (self.module.global_variables.iter())
             .filter(|(handle, _)| !usage[*handle].is_empty())
-            .filter_map(|(_, variable)| binding_of(variable))
+            .filter_map(|(handle, variable)| binding_of(variable, usage[handle]))
             .collect();
         bindings.sort_by_key(|binding| (binding.group, binding.binding));
         Ok(Interface {
@@ -264,7 +273,7 @@ pub fn offsets(wgsl: &str, structure: &str) -> Result<Vec<(String, u32)>, String
     shader.module.types.iter().find_map(named).ok_or_else(|| format!("the shader has no structure {structure}"))
 }
 
-fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
+fn binding_of(variable: &naga::GlobalVariable, used: GlobalUse) -> Option<Binding> {
     let place = variable.binding.as_ref()?;
     let kind = match variable.space {
         naga::AddressSpace::Uniform => Access::Uniform,
@@ -272,7 +281,8 @@ fn binding_of(variable: &naga::GlobalVariable) -> Option<Binding> {
         naga::AddressSpace::Storage { .. } => Access::Read,
         _ => return None,
     };
-    Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind })
+    let (reads, writes) = (used.contains(GlobalUse::READ), used.contains(GlobalUse::WRITE));
+    Some(Binding { group: place.group, binding: place.binding, name: variable.name.clone()?, kind, reads, writes })
 }
 
 /// Bindings, workgroup size and constants of an entry point.

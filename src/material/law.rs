@@ -2,7 +2,7 @@
 //! reads of a particle and remembers; from that come the keys of a scene and the sentences of their errors, the table of
 //! numbers, the structure in WGSL, the fields, `lithosph list` and the samples that the parity tests take.
 
-use crate::particles::Field;
+use crate::fields::Field;
 
 /// What a law is for. A material has either a law that is whole by itself, or one law for each role that it needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -165,7 +165,7 @@ macro_rules! law {
                     about: $sentence,
                 }),*],
                 reads: &[$(Reads::$reads),*],
-                remembers: &[$($crate::particles::Field::$field),*],
+                remembers: &[$($crate::fields::Field::$field),*],
                 structure: stringify!($Name),
                 source: include_str!(concat!("../../shaders/material/", stringify!($word), ".wgsl")),
             }

@@ -2,8 +2,8 @@
 //! where the axes that the scene lacks do not deform.
 
 use super::Moment;
+use crate::fields::Field;
 use crate::material::{cauchy, inelastic, stored_energy, strain};
-use crate::particles::Field;
 use crate::rows::Body;
 use crate::tensor::{Line, Plane, Solid, Space, Tuple};
 

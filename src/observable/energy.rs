@@ -1,7 +1,7 @@
 //! Energies of the selected particles.
 
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 
 fn sum(observer: &Observer, of: impl Fn(usize) -> f64) -> f64 {
     observer.particles.iter().map(|&i| of(i)).sum()

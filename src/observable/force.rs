@@ -2,7 +2,7 @@
 
 use super::momentum::component;
 use super::{ObservableKind, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 pub const FORCE: ObservableKind = ObservableKind {

@@ -2,7 +2,7 @@
 
 use super::moment::Moment;
 use super::table::Table;
-use crate::particles::Field;
+use crate::fields::Field;
 use crate::scene::file::Observe;
 
 /// One kind of observable.

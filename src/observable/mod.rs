@@ -29,7 +29,7 @@ pub use profile::profile;
 pub use table::Table;
 pub use trace::trace;
 
-use crate::particles::Field;
+use crate::fields::Field;
 use crate::scene::Scene;
 use crate::scene::file::Observe;
 use crate::scene::read::{hint, nearest};

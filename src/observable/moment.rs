@@ -1,10 +1,10 @@
 //! One moment of a run on the host, ordered by particle number, and every quantity that can be made of it.
 
 use super::deformation::Deformation;
-use crate::backend::Columns;
+use crate::backend::Fetched;
+use crate::fields::{Field, Set, Type, unit_text};
 use crate::material;
 use crate::output::{Column, Snapshot};
-use crate::particles::{Field, Set, Type, unit_text};
 use crate::scene::Scene;
 use crate::scene::file::Units;
 use crate::scene::read::hint;
@@ -15,7 +15,7 @@ pub struct Moment<'a> {
     pub scene: &'a Scene,
     pub time: f64,
     pub step: u64,
-    columns: Columns,
+    columns: Fetched,
 }
 
 /// What a path may begin with: name, numbers a particle, fields it is made of in the Eulerian formulation.
@@ -109,12 +109,12 @@ pub fn check_path(scene: &Scene, path: &str) -> Result<(), String> {
 
 impl<'a> Moment<'a> {
     /// Sorts what a backend fetched; it must contain the particle numbers.
-    pub fn new(scene: &'a Scene, time: f64, step: u64, fetched: &Columns) -> Self {
+    pub fn new(scene: &'a Scene, time: f64, step: u64, fetched: &Fetched) -> Self {
         let numbers = &fetched[&Field::Number];
-        // Facets and obstacles never change their order.
+        // Facets and obstacles never change their order; of all else the rows are as the device left them.
         let ordered = |field: Field, column: &[f64]| match field.set() {
             Set::Particle => sorted(column, numbers),
-            Set::Facet | Set::Obstacle => column.to_vec(),
+            _ => column.to_vec(),
         };
         let columns = fetched.iter().map(|(&field, column)| (field, ordered(field, column))).collect();
         Self { scene, time, step, columns }

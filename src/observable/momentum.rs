@@ -1,7 +1,7 @@
 //! Momenta and means weighted by mass.
 
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 /// Component along the observer's axis, or the length.

@@ -1,7 +1,7 @@
 //! How particles lie to each other: pieces, least distance, disorder.
 
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 use std::collections::HashMap;
 

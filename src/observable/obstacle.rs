@@ -2,7 +2,7 @@
 
 use super::momentum::component;
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 /// Index of the observer's obstacle.

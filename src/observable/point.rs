@@ -2,7 +2,7 @@
 
 use super::momentum::component;
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 /// That of the nearest particle, carried over the way to the point by its displacement gradient.

@@ -1,7 +1,7 @@
 //! A field at a place, or its mean or extreme over a selection.
 
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 fn path(observer: &Observer) -> &str {

@@ -2,7 +2,7 @@
 
 use super::momentum::component;
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 
 pub const PROFILE: ObservableKind = ObservableKind {
     word: "profile",

@@ -1,7 +1,7 @@
 //! How far a body has turned about z.
 
 use super::{Moment, ObservableKind, Observer, Value};
-use crate::particles::Field;
+use crate::fields::Field;
 use glam::DVec3;
 
 fn angle(moment: &Moment, observer: &Observer) -> f64 {

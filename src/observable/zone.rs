@@ -24,7 +24,7 @@ pub const ZONE: ObservableKind = ObservableKind {
 mod tests {
     use super::super::observers;
     use super::*;
-    use crate::particles::Field;
+    use crate::fields::Field;
     use crate::scene::Scene;
 
     const SCENE: &str = "

@@ -3,41 +3,57 @@
 //! remember of the load step before is settled.
 //! Twin: shaders/pass/begin_load.wgsl
 
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::with_columns;
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::Space;
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "moves what is held by a load step, and predicts the rest",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[Displacement, EquilibriumDisplacement]),
+            when(|m| m.plastic(), &[InelasticStrain, EquivalentPlasticStrain]),
+            when(|m| m.constraints, &[Constraint]),
+            when(|m| m.compensated, &[DisplacementCarry]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[Displacement, Velocity, EquilibriumDisplacement]),
+            when(|m| m.compensated, &[DisplacementCarry]),
+            when(|m| m.plastic(), &[EquilibriumInelasticStrain, EquilibriumPlasticStrain]),
+        ],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut displacement = std::mem::take(&mut state.particles.displacement);
-    let mut equilibrium = std::mem::take(&mut state.particles.equilibrium_displacement);
-    let mut carry = std::mem::take(&mut state.particles.displacement_carry);
-    for (a, (u, before)) in displacement.iter_mut().zip(&mut equilibrium).enumerate() {
-        let increment = increment(state, a, *u - *before);
-        *before = *u;
-        match carry.get_mut(a) {
-            Some(carry) => compensated_add::<S>(u, carry, increment),
-            None => *u += increment,
+    with_columns!(state, [displacement, equilibrium_displacement, displacement_carry] => {
+        for (a, (u, before)) in displacement.iter_mut().zip(&mut equilibrium_displacement).enumerate() {
+            let increment = increment(state, a, *u - *before);
+            *before = *u;
+            match displacement_carry.get_mut(a) {
+                Some(carry) => compensated_add::<S>(u, carry, increment),
+                None => *u += increment,
+            }
         }
-    }
-    state.particles.displacement = displacement;
-    state.particles.equilibrium_displacement = equilibrium;
-    state.particles.displacement_carry = carry;
-    state.particles.velocity.fill(S::Vec::default());
+    });
+    state.columns.velocity.fill(S::Vec::default());
     if state.method.plastic() {
-        let particles = &mut state.particles;
-        particles.equilibrium_inelastic_strain.copy_from_slice(&particles.inelastic_strain);
-        particles.equilibrium_plastic_strain.copy_from_slice(&particles.equivalent_plastic_strain);
+        let columns = &mut state.columns;
+        columns.equilibrium_inelastic_strain.copy_from_slice(&columns.inelastic_strain);
+        columns.equilibrium_plastic_strain.copy_from_slice(&columns.equivalent_plastic_strain);
     }
 }
 
 /// The last increment of what is free, and the prescribed one of what is held.
 #[inline(always)]
 fn increment<S: Space>(state: &State<S>, a: usize, mut last: S::Vec) -> S::Vec {
-    if state.method.constraints && state.particles.constraint[a] != 0 {
-        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+    if state.method.constraints && state.columns.constraint[a] != 0 {
+        let constraint = &state.constraints[state.columns.constraint[a] as usize - 1];
         let from = state.clock.start;
         let time = state.course_integral(constraint, from, from + state.clock.duration);
         let vector = [constraint.x, constraint.y, constraint.z];

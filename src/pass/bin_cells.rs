@@ -1,9 +1,23 @@
 //! Cell of each particle and number of particles of each cell. Twin: shaders/pass/bin_cells.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always};
+use super::write::fill;
 use crate::rows::Params;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "counts the particles of each cell",
+        entries: PARTICLES,
+        runs: Runs::Rebuilding,
+        own: &[always(&[ReferencePosition, Displacement, CellCount])],
+        neighbours: &[],
+        writes: &[always(&[Cell, CellCount])],
+    }
+};
 
 /// Cell coordinates of a point. Points outside the grid belong to the cell at its edge: two points nearer than
 /// a cell are then still in the same or in adjacent cells. A periodic axis wraps.
@@ -28,21 +42,17 @@ pub fn cell_of<S: Space>(params: &Params<S::Real>, x: S::Vec) -> [u32; 3] {
 /// Where a particle is, or was in the reference configuration.
 #[inline(always)]
 pub fn place<S: Space>(state: &State<S>, i: usize, stage: Stage) -> S::Vec {
-    if stage.reference { state.particles.reference_position[i] } else { state.position(i) }
+    if stage.reference { state.columns.reference_position[i] } else { state.position(i) }
 }
 
 pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 || state.clock.rebuild == 0 {
-        return;
-    }
-    let params = state.params;
-    let mut cells = std::mem::take(&mut state.particles.cell);
-    super::write(&mut cells, |i, slot| {
-        let [x, y, z] = cell_of::<S>(&params, place(state, i, stage));
+    fill!(state, cell, |i, slot| {
+        let params = &state.params;
+        let [x, y, z] = cell_of::<S>(params, place(state, i, stage));
         *slot = (z * params.cells_y + y) * params.cells_x + x;
     });
-    for &cell in &cells {
-        state.cell_count[cell as usize] += 1;
+    let columns = &mut state.columns;
+    for &cell in &columns.cell {
+        columns.cell_count[cell as usize] += 1;
     }
-    state.particles.cell = cells;
 }

@@ -13,26 +13,46 @@
 //! Twin: shaders/pass/bond_force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::method::Gradient;
 use crate::pair::mirror_tensor;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration by the bonds of the reference configuration",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, BondStress, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.hourglass, &[Displacement]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, BondStress]),
+            when(|m| m.hourglass, &[Displacement]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
+            when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
+        writes: &[always(&[Acceleration])],
     }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    with_bonds!(state, B => {
-        super::write(&mut accelerations, |a, slot| *slot = sum::<S, B>(state, a));
-    });
-    state.particles.acceleration = accelerations;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    with_bonds!(state, B => fill!(state, acceleration, |a, slot| *slot = sum::<S, B>(state, a)));
 }
 
 #[inline(always)]
 fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
-    let particles = &state.particles;
+    let columns = &state.columns;
     // Sum of the weights alone: what a's own stress is multiplied with.
     let (mut own, mut others) = (S::Vec::default(), S::Vec::default());
     let body = state.body(a);
@@ -42,7 +62,7 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
         let block = B::load(state, a, part.clone());
         for lane in 0..part.len() {
             let bond = B::bond(&block, lane);
-            let mut stress = particles.bond_stress[bond.b];
+            let mut stress = columns.bond_stress[bond.b];
             if B::IMAGES && bond.image != 0 {
                 stress = mirror_tensor::<S>(&state.params, bond.image, stress);
             }
@@ -57,11 +77,11 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     if state.method.gradient == Gradient::Quadratic {
         others += quadratic_part::<S, B>(state, a);
     }
-    (S::mat_vec(particles.bond_stress[a], own) + others) * (S::Real::of(1.0) / body.density)
+    (S::mat_vec(columns.bond_stress[a], own) + others) * (S::Real::of(1.0) / body.density)
 }
 
 fn quadratic_part<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
-    let stress = &state.particles.quadratic_stress;
+    let stress = &state.columns.quadratic_stress;
     let mut sum = S::Vec::default();
     for part in B::parts(state, a) {
         let block = B::load(state, a, part.clone());

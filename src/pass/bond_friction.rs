@@ -7,22 +7,35 @@
 //! Twin: shaders/pass/bond_friction.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::bond::{Bond, Source, displacement_difference, with_bonds};
 use crate::pair::mirror_vector;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds viscosity between the ends of bonds",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, Velocity, Acceleration, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity])],
+        writes: &[always(&[Acceleration]), when(|m| m.dissipated_power(), &[DissipatedPower])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut sums = vec![(S::Vec::default(), S::Real::of(0.0)); state.params.count as usize];
     with_bonds!(state, B => super::write(&mut sums, |a, slot| *slot = sum::<S, B>(state, a)));
-    let particles = &mut state.particles;
+    let columns = &mut state.columns;
     for (a, (acceleration, power)) in sums.into_iter().enumerate() {
-        particles.acceleration[a] += acceleration;
+        columns.acceleration[a] += acceleration;
         if state.method.dissipated_power() {
-            particles.dissipated_power[a] = power;
+            columns.dissipated_power[a] = power;
         }
     }
 }
@@ -60,7 +73,7 @@ fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, 
 /// v_b - v_a, the neighbour's velocity mirrored if it is an image.
 #[inline(always)]
 fn velocity_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
-    let velocity = &state.particles.velocity;
+    let velocity = &state.columns.velocity;
     let mut v_b = velocity[bond.b];
     if B::IMAGES && bond.image != 0 {
         v_b = mirror_vector::<S>(&state.params, bond.image, v_b);

@@ -12,26 +12,40 @@
 mod descent;
 
 use super::Stage;
-use crate::rows::{Fault, REDUCTION_BLOCK};
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
+use super::write::fill;
+use crate::fields::REDUCTION_BLOCK;
+use crate::rows::Fault;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "finds how far from equilibrium the particles are, and how to go on",
+        entries: &[Entry::new("blocks", Domain::ReductionBlocks), Entry::new("advance", Domain::One)],
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferenceVolume, Velocity, Acceleration, DisplacementGradient, BlockResidual]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.constraints, &[Constraint]),
+        ],
+        neighbours: &[],
+        writes: &[always(&[BlockResidual])],
+    }
+};
 
 /// Sums of m a.v, m a^2, m v^2 and a gap; then the largest force, force scale, rate c/h and fault.
 type Measure<R> = [R; 8];
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut blocks = std::mem::take(&mut state.block_residual);
     let nothing = [S::Real::of(0.0); 8];
-    super::write(&mut blocks, |block, slot| {
+    fill!(state, block_residual, |block, slot| {
         let first = block * REDUCTION_BLOCK;
         let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
         *slot = (first..last).fold(nothing, |whole, a| joined(whole, measure(state, a)));
     });
-    let whole = blocks.iter().fold(nothing, |whole, &block| joined(whole, block));
-    state.block_residual = blocks;
+    let whole = state.columns.block_residual.iter().fold(nothing, |whole, &block| joined(whole, block));
     descent::go_on(state, whole);
 }
 
@@ -42,11 +56,11 @@ fn joined<R: Real>(a: Measure<R>, b: Measure<R>) -> Measure<R> {
 
 #[inline(always)]
 fn measure<S: Space>(state: &State<S>, a: usize) -> Measure<S::Real> {
-    let (particles, body, mass) = (&state.particles, state.body(a), state.mass(a));
-    let (velocity, pull) = (particles.velocity[a], unbalanced(state, a));
+    let (columns, body, mass) = (&state.columns, state.body(a), state.mass(a));
+    let (velocity, pull) = (columns.velocity[a], unbalanced(state, a));
     let (square, zero) = (S::inner(pull, pull), S::Real::of(0.0));
     let (power, motion) = (mass * S::inner(pull, velocity), mass * S::inner(velocity, velocity));
-    let gradient = particles.displacement_gradient[a];
+    let gradient = columns.displacement_gradient[a];
     let fault = if !(square + motion).is_finite() {
         S::Real::of(f64::from(Fault::NotFinite as u32))
     } else if S::determinant(S::mat_identity() + gradient) <= zero {
@@ -64,18 +78,18 @@ fn measure<S: Space>(state: &State<S>, a: usize) -> Measure<S::Real> {
 /// E (V/h) max(|e|, 1e-6), e = (H + H^T + H^T H)/2.
 #[inline(always)]
 pub fn force_scale<S: Space>(state: &State<S>, a: usize) -> S::Real {
-    let (body, h) = (state.body(a), state.particles.displacement_gradient[a]);
+    let (body, h) = (state.body(a), state.columns.displacement_gradient[a]);
     let strain = S::sym_part(h) + S::sym_part(S::mat_mat(S::transpose(h), h)) * S::Real::of(0.5);
     let strain = S::mat_of_sym(strain);
     let size = S::trace(S::mat_mat(strain, strain)).sqrt();
-    let stiffness = body.youngs_modulus * state.particles.reference_volume[a] / body.smoothing_length;
+    let stiffness = body.youngs_modulus * state.columns.reference_volume[a] / body.smoothing_length;
     stiffness * size.max(S::Real::of(1e-6))
 }
 
 /// Acceleration of what is free, by the bonds and by the loads of the present load step; zero where it is held.
 #[inline(always)]
 pub fn unbalanced<S: Space>(state: &State<S>, a: usize) -> S::Vec {
-    let (params, mut sum) = (&state.params, state.particles.acceleration[a]);
+    let (params, mut sum) = (&state.params, state.columns.acceleration[a]);
     let time = state.clock.start + state.clock.duration;
     let part = time * params.load_rate;
     if state.method.body_force {
@@ -84,8 +98,8 @@ pub fn unbalanced<S: Space>(state: &State<S>, a: usize) -> S::Vec {
             sum[k] += g[k] * part;
         }
     }
-    if state.method.constraints && state.particles.constraint[a] != 0 {
-        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+    if state.method.constraints && state.columns.constraint[a] != 0 {
+        let constraint = &state.constraints[state.columns.constraint[a] as usize - 1];
         let factor = if constraint.course_count == 0 { part } else { state.course_factor(constraint, time) };
         let vector = [constraint.x, constraint.y, constraint.z];
         for k in 0..S::DIMENSION {

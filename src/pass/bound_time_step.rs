@@ -4,22 +4,38 @@
 //! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 
 use super::Stage;
-use crate::rows::{Fault, REDUCTION_BLOCK};
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
+use super::write::fill;
+use crate::fields::REDUCTION_BLOCK;
+use crate::rows::Fault;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances the clock; finds the next step, whether the list still holds, and faults",
+        entries: &[Entry::new("blocks", Domain::ReductionBlocks), Entry::new("advance", Domain::One)],
+        runs: Runs::Running,
+        own: &[
+            always(&[Velocity, Acceleration, BlockBound]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.listed_again(), &[Displacement, ListedDisplacement]),
+            when(|m| m.finite_strain(), &[DisplacementGradient]),
+            when(|m| !m.finite_strain(), &[VolumetricStrain, VelocityGradient]),
+        ],
+        neighbours: &[],
+        writes: &[always(&[BlockBound])],
     }
-    let mut blocks = std::mem::take(&mut state.block_bound);
-    super::write(&mut blocks, |block, slot| {
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, block_bound, |block, slot| {
         let first = block * REDUCTION_BLOCK;
         let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
         *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, bound_of(state, a)));
     });
-    let bound = blocks.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
-    state.block_bound = blocks;
+    let bound = state.columns.block_bound.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
     clock(state, bound);
 }
 
@@ -30,23 +46,23 @@ fn larger<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
 
 /// Rate, squared displacement since the list was built, squared speed, fault of one particle.
 fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
-    let (particles, params, body) = (&state.particles, &state.params, state.body(a));
+    let (columns, params, body) = (&state.columns, &state.params, state.body(a));
     let (h, part) = (body.smoothing_length, S::Real::of(0.6));
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
     let finite_strain = state.method.finite_strain();
-    let compression = if finite_strain { zero } else { S::trace(particles.velocity_gradient[a]).abs() };
+    let compression = if finite_strain { zero } else { S::trace(columns.velocity_gradient[a]).abs() };
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
-    let pull = S::inner(particles.acceleration[a], particles.acceleration[a]);
+    let pull = S::inner(columns.acceleration[a], columns.acceleration[a]);
     let mut rate = (signal / h).max((pull.sqrt() / h).sqrt());
     if state.method.facets() {
         rate = (rate * rate + params.contact_rate).sqrt();
     }
-    let moved = particles.listed_displacement.get(a).map_or(S::Vec::default(), |listed| particles.displacement[a] - *listed);
-    let (moved, speed) = (S::inner(moved, moved), S::inner(particles.velocity[a], particles.velocity[a]));
+    let moved = columns.listed_displacement.get(a).map_or(S::Vec::default(), |listed| columns.displacement[a] - *listed);
+    let (moved, speed) = (S::inner(moved, moved), S::inner(columns.velocity[a], columns.velocity[a]));
     let volume = if finite_strain {
-        S::determinant(S::mat_identity() + particles.displacement_gradient[a])
+        S::determinant(S::mat_identity() + columns.displacement_gradient[a])
     } else {
-        one + particles.volumetric_strain[a]
+        one + columns.volumetric_strain[a]
     };
     let finite = (pull + moved + speed + compression).is_finite();
     let fault = if !finite {

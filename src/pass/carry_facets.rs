@@ -2,22 +2,36 @@
 //! the forces on the bonds are the derivative of the energy of contact too. Twin: shaders/pass/carry_facets.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
 use super::deform::corrected;
+use super::write::fill;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds to what the bonds carry the stress that the facets' levers make",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferenceVolume, BondStress, FirstFacet, Facets, FacetMoment]),
+            when(|m| m.gap.is_some(), &[FacetPressed]),
+            when(|m| m.obstacles, &[FacetObstacle]),
+            when(|m| m.corrects_rate(), &[ReferenceCorrection]),
+        ],
+        neighbours: &[],
+        writes: &[always(&[BondStress])],
     }
-    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
-    super::write(&mut stresses, |a, stress| {
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, bond_stress, |a, stress| {
         let mut touched = state.facets_of(a).filter(|&e| state.facet_touched(e)).peekable();
         if touched.peek().is_some() {
-            let sum = touched.fold(S::Mat::default(), |sum, e| sum + state.particles.facet_moment[e]);
-            let mean = sum * (S::Real::of(1.0) / state.particles.reference_volume[a]);
+            let sum = touched.fold(S::Mat::default(), |sum, e| sum + state.columns.facet_moment[e]);
+            let mean = sum * (S::Real::of(1.0) / state.columns.reference_volume[a]);
             *stress += corrected(state, a, &mean);
         }
     });
-    state.particles.bond_stress = stresses;
 }

@@ -3,7 +3,8 @@
 //! [`crate::contact::colour_field`]. Twin: shaders/pass/contact_force.wgsl
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::{GRAIN, with_columns, write_rows};
 use crate::contact::{COLOUR_FIELD, Potential};
 use crate::pair::separation;
 use crate::rows::ContactPair;
@@ -11,22 +12,37 @@ use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds the acceleration by contact",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, Acceleration, ContactCount, Contacts]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.contact.colour_field, &[ColourExcess]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.contact.colour_field, &[ColourExcess]),
+        ],
+        writes: &[always(&[Acceleration, ContactEnergy])],
     }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    let mut energies = std::mem::take(&mut state.particles.contact_energy);
-    write_rows((&mut accelerations[..], &mut energies[..]), GRAIN, |a, (acceleration, energy)| {
-        *energy = S::Real::of(0.0);
-        if state.particles.contact_count[a] > 0 {
-            let (force, stored) = sum(state, a);
-            *acceleration += force * (S::Real::of(1.0) / state.mass(a));
-            *energy = stored;
-        }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    with_columns!(state, [acceleration, contact_energy] => {
+        write_rows((&mut acceleration[..], &mut contact_energy[..]), GRAIN, |a, (acceleration, energy)| {
+            *energy = S::Real::of(0.0);
+            if state.columns.contact_count[a] > 0 {
+                let (force, stored) = sum(state, a);
+                *acceleration += force * (S::Real::of(1.0) / state.mass(a));
+                *energy = stored;
+            }
+        });
     });
-    state.particles.acceleration = accelerations;
-    state.particles.contact_energy = energies;
 }
 
 /// Force on a particle, and its part of the energy.
@@ -50,15 +66,15 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> (S::Vec, S::Real) {
         }
     }
     if let Some(stiffness) = colour {
-        let excess = state.particles.colour_excess[a];
-        energy += half * stiffness * state.particles.reference_volume[a] * excess * excess;
+        let excess = state.columns.colour_excess[a];
+        energy += half * stiffness * state.columns.reference_volume[a] * excess * excess;
     }
     (force, energy)
 }
 
 /// -k V_a V_b (<c_a - c0> + <c_b - c0>) (dW/dr)/r
 fn by_colour<S: Space>(state: &State<S>, pair: &ContactPair<S::Real>, (a, b): (usize, usize), distance: S::Real) -> S::Real {
-    let (volume, excess) = (&state.particles.reference_volume, &state.particles.colour_excess);
+    let (volume, excess) = (&state.columns.reference_volume, &state.columns.colour_excess);
     let slope = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION).gradient(distance, S::Real::of(0.5) * pair.range);
     S::Real::of(-1.0) * pair.strength * volume[a] * volume[b] * (excess[a] + excess[b]) * slope
 }

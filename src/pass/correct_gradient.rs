@@ -2,17 +2,29 @@
 //! Twin: shaders/pass/correct_gradient.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::pair::{blocks, pair_coupling, safe_inverse};
 use crate::state::State;
 use crate::tensor::Space;
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "inverse of the first moment of the kernel gradient",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, VolumetricStrain]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        writes: &[always(&[Correction])],
     }
-    let mut corrections = std::mem::take(&mut state.particles.correction);
-    super::write(&mut corrections, |a, slot| *slot = safe_inverse::<S>(moment(state, a)));
-    state.particles.correction = corrections;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, correction, |a, slot| *slot = safe_inverse::<S>(moment(state, a)));
 }
 
 #[inline(always)]

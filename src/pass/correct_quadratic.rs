@@ -7,16 +7,29 @@
 //! Twin: shaders/pass/correct_quadratic.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::bond::{Source, with_bonds};
 use crate::state::State;
 use crate::tensor::{Linear, Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "coefficients of the gradient that is exact for quadratic displacements",
+        entries: LISTED,
+        runs: Runs::Always,
+        own: &[always(&[ReferencePosition, ReferenceCorrection, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume])],
+        writes: &[always(&[LinearCoefficient, QuadraticCoefficient])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let mut coefficients = vec![(S::Sym::default(), S::Tri::default()); state.params.count as usize];
     with_bonds!(state, B => super::write(&mut coefficients, |a, slot| *slot = coefficients_of::<S, B>(state, a)));
-    let particles = &mut state.particles;
+    let columns = &mut state.columns;
     for (a, (linear, quadratic)) in coefficients.into_iter().enumerate() {
-        (particles.linear_coefficient[a], particles.quadratic_coefficient[a]) = (linear, quadratic);
+        (columns.linear_coefficient[a], columns.quadratic_coefficient[a]) = (linear, quadratic);
     }
 }
 
@@ -29,7 +42,7 @@ fn terms<S: Space>() -> usize {
 fn coefficients_of<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Sym, S::Tri) {
     let h = state.body(a).smoothing_length;
     let inverse = inverted::<S>(moment::<S, B>(state, a, h));
-    let Some(inverse) = inverse else { return (state.particles.reference_correction[a], S::Tri::default()) };
+    let Some(inverse) = inverse else { return (state.columns.reference_correction[a], S::Tri::default()) };
     let (one, n) = (S::Real::of(1.0), terms::<S>());
     let (square, cube) = (one / (h * h), one / (h * h * h));
     let (mut linear, mut quadratic) = (S::Sym::default(), S::Tri::default());

@@ -2,17 +2,29 @@
 //! (Bonet & Lok 1999). Twin: shaders/pass/correct_reference.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::bond::{Source, with_bonds};
 use crate::pair::inverse_or;
 use crate::state::State;
 use crate::tensor::Space;
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "inverse of the first moment of the kernel gradient in the reference configuration",
+        entries: LISTED,
+        runs: Runs::Always,
+        own: &[always(&[ReferencePosition, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume])],
+        writes: &[always(&[ReferenceCorrection])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    let mut corrections = std::mem::take(&mut state.particles.reference_correction);
-    with_bonds!(state, B => {
-        super::write(&mut corrections, |a, slot| *slot = S::sym_part(inverse_or::<S>(moment::<S, B>(state, a), S::mat_identity())));
-    });
-    state.particles.reference_correction = corrections;
+    with_bonds!(state, B => fill!(state, reference_correction, |a, slot| {
+        *slot = S::sym_part(inverse_or::<S>(moment::<S, B>(state, a), S::mat_identity()));
+    }));
 }
 
 #[inline(always)]

@@ -9,25 +9,53 @@
 //! [`super::correct_quadratic`]; the hourglass term keeps the linear H, whose fit its energy belongs to.
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::{GRAIN, fill, with_columns, write_rows};
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::material::{self, Memory};
 use crate::method::Gradient;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "deformation gradient, stress, and what the bonds carry of it",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.corrects_rate(), &[ReferenceCorrection]),
+            when(
+                |m| m.memory() && m.plastic() && m.quasi_static.is_some(),
+                &[EquilibriumInelasticStrain, EquilibriumPlasticStrain],
+            ),
+            when(|m| m.quadratic_gradient(), &[LinearCoefficient, QuadraticCoefficient]),
+            when(|m| m.memory(), &[InelasticStrain]),
+            when(|m| m.memory() && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.memory() && m.heated(), &[Temperature]),
+            when(|m| m.memory() && m.dissipated_energy, &[DisplacementGradient, DissipatedEnergy]),
+        ],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement])],
+        writes: &[
+            always(&[DisplacementGradient, BondStress]),
+            when(|m| m.memory(), &[InelasticStrain]),
+            when(|m| m.memory() && m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.memory() && m.heated(), &[Temperature]),
+            when(|m| m.memory() && m.dissipated_energy, &[DissipatedEnergy]),
+            when(|m| m.quadratic_gradient(), &[QuadraticStress]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     // Where nothing else comes between deformation and stress, one loop does both.
     let at_once = !state.method.memory() && state.method.gradient != Gradient::Quadratic;
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
-    let mut stresses = std::mem::take(&mut state.particles.bond_stress);
     let heats = state.method.memory() && state.method.dissipated_energy;
-    let before = if heats { gradients.clone() } else { Vec::new() };
-    with_bonds!(state, B => {
-        write_rows((&mut gradients[..], &mut stresses[..]), GRAIN, |a, (gradient, stress)| {
+    let before = if heats { state.columns.displacement_gradient.clone() } else { Vec::new() };
+    with_columns!(state, [displacement_gradient, bond_stress] => with_bonds!(state, B => {
+        write_rows((&mut displacement_gradient[..], &mut bond_stress[..]), GRAIN, |a, (gradient, stress)| {
             *stress = sum_bonds::<S, B>(state, a);
             *gradient = corrected(state, a, stress);
             let linear = *gradient;
@@ -39,18 +67,15 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
                 *stress = corrected(state, a, &piola(state, a, *gradient)) - linear * hourglass_stiffness(state, a);
             }
         });
-    });
-    state.particles.displacement_gradient = gradients;
+    }));
     if at_once {
-        state.particles.bond_stress = stresses;
         return;
     }
     relax(state, &before);
-    super::write(&mut stresses, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
-    state.particles.bond_stress = stresses;
-    let mut stresses = std::mem::take(&mut state.particles.quadratic_stress);
-    super::write(&mut stresses, |a, slot| *slot = S::mat_tri(stress(state, a), state.particles.quadratic_coefficient[a]));
-    state.particles.quadratic_stress = stresses;
+    fill!(state, bond_stress, |a, slot| *slot = bond_stress(state, a) - *slot * hourglass_stiffness(state, a));
+    fill!(state, quadratic_stress, |a, slot| {
+        *slot = S::mat_tri(stress(state, a), state.columns.quadratic_coefficient[a]);
+    });
 }
 
 /// Takes what the laws remember to the end of the step, at the new H. Before the first step the clock's is 0.
@@ -60,27 +85,25 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
     }
     let step = state.clock.step;
     let mut memories = vec![Memory::default(); state.params.count as usize];
-    let gradients = &state.particles.displacement_gradient;
+    let gradients = &state.columns.displacement_gradient;
     super::write(&mut memories, |a, memory| {
         *memory = material::relax::<S>(state.body(a), gradients[a], remembered(state, a), step);
     });
     if !before.is_empty() {
-        let mut heats = std::mem::take(&mut state.particles.dissipated_energy);
-        super::write(&mut heats, |a, heat| {
-            let (body, old) = (state.body(a), state.particles.inelastic_strain[a]);
+        fill!(state, dissipated_energy, |a, heat| {
+            let (body, old) = (state.body(a), state.columns.inelastic_strain[a]);
             let of_step =
-                material::dissipated::<S>(body, (before[a], old), (state.particles.displacement_gradient[a], memories[a].strain));
+                material::dissipated::<S>(body, (before[a], old), (state.columns.displacement_gradient[a], memories[a].strain));
             *heat += of_step * (S::Real::of(1.0) / body.density);
         });
-        state.particles.dissipated_energy = heats;
     }
-    let particles = &mut state.particles;
+    let columns = &mut state.columns;
     for (a, memory) in memories.into_iter().enumerate() {
-        particles.inelastic_strain[a] = memory.strain;
-        if let Some(slot) = particles.equivalent_plastic_strain.get_mut(a) {
+        columns.inelastic_strain[a] = memory.strain;
+        if let Some(slot) = columns.equivalent_plastic_strain.get_mut(a) {
             *slot = memory.plastic;
         }
-        if let Some(slot) = particles.temperature.get_mut(a) {
+        if let Some(slot) = columns.temperature.get_mut(a) {
             *slot = memory.temperature;
         }
     }
@@ -90,16 +113,16 @@ fn relax<S: Space>(state: &mut State<S>, before: &[S::Mat]) {
 /// begins at the last equilibrium.
 #[inline(always)]
 fn remembered<S: Space>(state: &State<S>, a: usize) -> Memory<S> {
-    let particles = &state.particles;
+    let columns = &state.columns;
     let (strains, plastic) = if state.method.quasi_static.is_some() {
-        (&particles.equilibrium_inelastic_strain, &particles.equilibrium_plastic_strain)
+        (&columns.equilibrium_inelastic_strain, &columns.equilibrium_plastic_strain)
     } else {
-        (&particles.inelastic_strain, &particles.equivalent_plastic_strain)
+        (&columns.inelastic_strain, &columns.equivalent_plastic_strain)
     };
     Memory {
         strain: strains[a],
         plastic: plastic.get(a).copied().unwrap_or_default(),
-        temperature: particles.temperature.get(a).copied().unwrap_or_default(),
+        temperature: columns.temperature.get(a).copied().unwrap_or_default(),
     }
 }
 
@@ -128,9 +151,9 @@ fn quadratic_gradient<S: Space, B: Source<S>>(state: &State<S>, a: usize, first:
             second += S::tri_outer(displacement_difference::<S, B>(state, a, &bond), products);
         }
     }
-    let particles = &state.particles;
-    let linear = S::mat_mat(*first, S::mat_of_sym(particles.linear_coefficient[a]));
-    linear + S::tri_tri(second, particles.quadratic_coefficient[a])
+    let columns = &state.columns;
+    let linear = S::mat_mat(*first, S::mat_of_sym(columns.linear_coefficient[a]));
+    linear + S::tri_tri(second, columns.quadratic_coefficient[a])
 }
 
 /// M K_a^-1. Out of line, so that the sums of the loop over bonds stay in vector registers.
@@ -139,26 +162,26 @@ pub(super) fn corrected<S: Space>(state: &State<S>, a: usize, m: &S::Mat) -> S::
     if state.method.gradient == Gradient::Plain {
         return *m;
     }
-    S::mat_mat(*m, S::mat_of_sym(state.particles.reference_correction[a]))
+    S::mat_mat(*m, S::mat_of_sym(state.columns.reference_correction[a]))
 }
 
 /// P_a
 #[inline(always)]
 fn piola<S: Space>(state: &State<S>, a: usize, gradient: S::Mat) -> S::Mat {
-    let memory = state.particles.inelastic_strain.get(a).copied().unwrap_or_default();
+    let memory = state.columns.inelastic_strain.get(a).copied().unwrap_or_default();
     material::first_piola::<S>(state.body(a), gradient, memory)
 }
 
 #[inline(always)]
 fn stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    piola(state, a, state.particles.displacement_gradient[a])
+    piola(state, a, state.columns.displacement_gradient[a])
 }
 
 /// P_a K_a^-1, or P_a C1
 #[inline(always)]
 fn bond_stress<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     if state.method.gradient == Gradient::Quadratic {
-        return S::mat_mat(stress(state, a), S::mat_of_sym(state.particles.linear_coefficient[a]));
+        return S::mat_mat(stress(state, a), S::mat_of_sym(state.columns.linear_coefficient[a]));
     }
     corrected(state, a, &stress(state, a))
 }

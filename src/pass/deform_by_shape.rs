@@ -2,28 +2,47 @@
 //! Twin: shaders/pass/deform_by_shape.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use crate::shape_function::{Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::Space;
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "deformation gradient from displacements, Shutov & Klyuchantsev (8)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[Displacement]),
+            when(|m| !m.kept_gradients() && m.many_bodies, &[Body]),
+            when(|m| !m.kept_gradients(), &[ReferencePosition, ReferenceVolume, NeighborCount, Neighbors]),
+            when(|m| !m.kept_gradients() && m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.kept_gradients(), &[KeptCount, KeptNeighbors, KeptGradients]),
+        ],
+        neighbours: &[
+            always(&[Displacement]),
+            when(|m| !m.kept_gradients() && m.many_bodies, &[Body]),
+            when(|m| !m.kept_gradients(), &[ReferencePosition, ReferenceVolume]),
+        ],
+        writes: &[always(&[DisplacementGradient])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     if state.method.list_follows() {
-        super::write(&mut gradients, |a, slot| *slot = sum_kept(state, a));
+        fill!(state, displacement_gradient, |a, slot| *slot = sum_kept(state, a));
     } else {
-        super::write(&mut gradients, |a, slot| *slot = sum_nodes(state, a));
+        fill!(state, displacement_gradient, |a, slot| *slot = sum_nodes(state, a));
     }
-    state.particles.displacement_gradient = gradients;
 }
 
 /// u_b - u_a
 #[inline(always)]
 fn difference<S: Space>(state: &State<S>, a: usize, b: usize, image: u32) -> S::Vec {
-    seen(state, image, state.particles.displacement[b]) - state.particles.displacement[a]
+    seen(state, image, state.columns.displacement[b]) - state.columns.displacement[a]
 }
 
 #[inline(always)]
@@ -41,10 +60,10 @@ fn sum_nodes<S: Space>(state: &State<S>, a: usize) -> S::Mat {
 fn sum_kept<S: Space>(state: &State<S>, a: usize) -> S::Mat {
     let count = state.params.count as usize;
     let mut sum = S::Mat::default();
-    for k in 0..state.particles.kept_count[a] as usize {
-        let entry = state.kept_neighbors[k * count + a];
+    for k in 0..state.columns.kept_count[a] as usize {
+        let entry = state.columns.kept_neighbors[k * count + a];
         let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
-        sum += S::outer(difference(state, a, b, image), state.kept_gradients[k * count + a]);
+        sum += S::outer(difference(state, a, b, image), state.columns.kept_gradients[k * count + a]);
     }
     sum
 }

@@ -3,30 +3,55 @@
 //! Both are written for H = F - 1, so that f32 keeps small strains. Twin: shaders/pass/evolve_deformation.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::method::VelocityGradient;
 use crate::shape_function::{Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances the deformation gradient, or gives its rate, Shutov & Klyuchantsev (6), (9)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                ReferencePosition,
+                ReferenceVolume,
+                Displacement,
+                Velocity,
+                VolumetricStrain,
+                DisplacementGradient,
+                NeighborCount,
+                Neighbors,
+            ]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity, VolumetricStrain]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        writes: &[when(|m| m.staged(), &[DisplacementGradientRate]), when(|m| !m.staged(), &[DisplacementGradient])],
+    }
+};
+
 /// Terms of the exponential's series: all digits of f64 for steps that turn or stretch by a tenth.
 const EXPONENTIAL_TERMS: u32 = 10;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut gradients = std::mem::take(&mut state.particles.displacement_gradient);
     if state.method.staged() {
-        let mut rates = std::mem::take(&mut state.particles.displacement_gradient_rate);
-        super::write(&mut rates, |a, slot| *slot = before::<S>(velocity_gradient(state, a), gradients[a]));
-        state.particles.displacement_gradient_rate = rates;
+        fill!(state, displacement_gradient_rate, |a, slot| {
+            *slot = before::<S>(velocity_gradient(state, a), state.columns.displacement_gradient[a]);
+        });
     } else {
-        super::write(&mut gradients, |a, slot| {
+        fill!(state, displacement_gradient, |a, slot| {
             let turn = exponential_less_one::<S>(velocity_gradient(state, a) * state.clock.step);
             *slot += before::<S>(turn, *slot);
         });
     }
-    state.particles.displacement_gradient = gradients;
 }
 
 /// A F = A + A H
@@ -47,7 +72,7 @@ fn exponential_less_one<S: Space>(a: S::Mat) -> S::Mat {
 
 #[inline(always)]
 fn velocity_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    let velocity = &state.particles.velocity;
+    let velocity = &state.columns.velocity;
     let printed = state.method.corrected_kernel.is_some_and(|sums| sums.velocity_gradient == VelocityGradient::Printed);
     let own = if printed { S::Vec::default() } else { velocity[a] };
     let shape = Shape::of(state, a);

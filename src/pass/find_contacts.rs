@@ -3,40 +3,50 @@
 //! itself. Twin: shaders/pass/find_contacts.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
 use super::find_neighbors::visit_cells;
-use super::write::{Wide, write_rows};
+use super::write::{Wide, with_columns, write_rows};
 use crate::pair::{reference_separation, separation};
 use crate::rows::Fault;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "lists the particles that each particle may touch",
+        entries: PARTICLES,
+        runs: Runs::Rebuilding,
+        own: &[always(&[ReferencePosition, Displacement, CellStart, CellParticles]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, Displacement]), when(|m| m.many_bodies, &[Body])],
+        writes: &[always(&[ListedDisplacement, ContactCount, Contacts])],
+    }
+};
+
 /// Particles whose lists are found together.
 const CHUNK: usize = 256;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 || state.clock.rebuild == 0 {
-        return;
-    }
-    let mut counts = std::mem::take(&mut state.particles.contact_count);
-    // What a chunk has found lies together; few particles find any.
-    let mut found: Vec<Option<Vec<u32>>> = vec![None; counts.len().div_ceil(CHUNK)];
-    let chunks = Wide { entries: &mut counts[..], width: CHUNK };
-    write_rows((chunks, &mut found[..]), 1, |k, (counts, list)| *list = list_chunk(state, k * CHUNK, counts));
-    let count = counts.len();
-    for (first, list) in (0..).step_by(CHUNK).zip(&found) {
-        let Some(list) = list else {
-            state.clock.fault = Fault::ListFull as u32;
-            continue;
-        };
-        let mut rest = list.iter();
-        for a in (first..count.min(first + CHUNK)).take_while(|_| !list.is_empty()) {
-            for (k, &b) in rest.by_ref().take(counts[a] as usize).enumerate() {
-                state.contacts[k * count + a] = b;
+    with_columns!(state, [contact_count, contacts] => {
+        // What a chunk has found lies together; few particles find any.
+        let mut found: Vec<Option<Vec<u32>>> = vec![None; contact_count.len().div_ceil(CHUNK)];
+        let chunks = Wide { entries: &mut contact_count[..], width: CHUNK };
+        write_rows((chunks, &mut found[..]), 1, |k, (counts, list)| *list = list_chunk(state, k * CHUNK, counts));
+        let count = contact_count.len();
+        for (first, list) in (0..).step_by(CHUNK).zip(&found) {
+            let Some(list) = list else {
+                state.clock.fault = Fault::ListFull as u32;
+                continue;
+            };
+            let mut rest = list.iter();
+            for a in (first..count.min(first + CHUNK)).take_while(|_| !list.is_empty()) {
+                for (k, &b) in rest.by_ref().take(contact_count[a] as usize).enumerate() {
+                    contacts[k * count + a] = b;
+                }
             }
         }
-    }
-    state.particles.contact_count = counts;
-    state.particles.listed_displacement.clone_from(&state.particles.displacement);
+    });
+    state.columns.listed_displacement.clone_from(&state.columns.displacement);
 }
 
 /// The lists of a chunk of particles, one after the other, and their lengths; None if one is too long.

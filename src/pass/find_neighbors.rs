@@ -3,33 +3,44 @@
 
 use super::Stage;
 use super::bin_cells::{cell_of, place};
-use super::write::{Wide, write_rows};
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::{Wide, with_columns, write_rows};
 use crate::pair::{mirror_point, reference_separation, separation};
 use crate::rows::{Fault, NEIGHBOR_BITS};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 || state.clock.rebuild == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "lists the particles within reach, mirror images included",
+        entries: LISTED,
+        runs: Runs::Rebuilding,
+        own: &[
+            always(&[ReferencePosition, Displacement, CellStart, CellParticles]),
+            when(|m| m.coupling && m.many_bodies, &[Body]),
+        ],
+        neighbours: &[always(&[ReferencePosition, Displacement]), when(|m| m.coupling && m.many_bodies, &[Body])],
+        writes: &[always(&[NeighborCount, Neighbors]), when(|m| m.list_follows(), &[ListedDisplacement])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     let capacity = state.params.list_capacity as usize;
-    let mut neighbors = std::mem::take(&mut state.neighbors);
-    let mut counts = std::mem::take(&mut state.particles.neighbor_count);
     let fault = AtomicU32::new(0);
-    let lists = Wide { entries: &mut neighbors[..], width: capacity };
-    write_rows((lists, &mut counts[..]), 64, |a, (row, count)| {
-        *count = list_one(state, a, row, stage).unwrap_or_else(|| {
-            fault.store(Fault::ListFull as u32, Ordering::Relaxed);
-            0
+    with_columns!(state, [neighbors, neighbor_count] => {
+        let lists = Wide { entries: &mut neighbors[..], width: capacity };
+        write_rows((lists, &mut neighbor_count[..]), 64, |a, (row, count)| {
+            *count = list_one(state, a, row, stage).unwrap_or_else(|| {
+                fault.store(Fault::ListFull as u32, Ordering::Relaxed);
+                0
+            });
         });
     });
-    state.neighbors = neighbors;
-    state.particles.neighbor_count = counts;
     if !stage.reference {
-        let particles = &mut state.particles;
-        particles.listed_displacement.clone_from(&particles.displacement);
+        let columns = &mut state.columns;
+        columns.listed_displacement.clone_from(&columns.displacement);
     }
     if fault.into_inner() != 0 {
         state.clock.fault = Fault::ListFull as u32;
@@ -98,8 +109,9 @@ pub fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl F
                 let start = wrap(first, params.cells_x);
                 let width = (last - first).min((params.cells_x - 1 - start) as i32) as u32;
                 let cells = (row + start) as usize;
-                let particles = state.cell_start[cells] as usize..state.cell_start[cells + width as usize + 1] as usize;
-                for &b in &state.cell_particles[particles] {
+                let columns = &state.columns;
+                let places = columns.cell_start[cells] as usize..columns.cell_start[cells + width as usize + 1] as usize;
+                for &b in &columns.cell_particles[places] {
                     visit(b)?;
                 }
                 first += width as i32 + 1;

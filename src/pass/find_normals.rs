@@ -3,23 +3,32 @@
 //! Twin: shaders/pass/find_normals.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use super::find_surface::own_neighbors;
+use super::write::fill;
 use crate::contact::zones::Normals;
 use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "normals of surface particles, Fuller (4.1)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[always(&[ReferencePosition, Displacement, Surface, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, Displacement, Surface]), when(|m| m.many_bodies, &[Body])],
+        writes: &[always(&[SurfaceNormal])],
     }
-    let mut normals = std::mem::take(&mut state.particles.surface_normal);
-    super::write(&mut normals, |a, slot| *slot = normal(state, a, stage));
-    state.particles.surface_normal = normals;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    fill!(state, surface_normal, |a, slot| *slot = normal(state, a, stage));
 }
 
 fn normal<S: Space>(state: &State<S>, a: usize, stage: Stage) -> S::Vec {
-    let surface = &state.particles.surface;
+    let surface = &state.columns.surface;
     if surface[a] == 0 {
         return S::Vec::default();
     }

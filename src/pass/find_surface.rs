@@ -3,18 +3,27 @@
 //! Twin: shaders/pass/find_surface.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::contact::zones::{CORNER, SURFACE};
 use crate::pair::{reference_separation, separation};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "finds surfaces and corners by the number of neighbours, Fuller 4.3.1",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
+        neighbours: &[always(&[ReferencePosition, Displacement]), when(|m| m.many_bodies, &[Body])],
+        writes: &[always(&[Surface])],
     }
-    let mut surface = std::mem::take(&mut state.particles.surface);
-    super::write(&mut surface, |a, slot| *slot = kind_of(state, a, stage));
-    state.particles.surface = surface;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    fill!(state, surface, |a, slot| *slot = kind_of(state, a, stage));
 }
 
 fn kind_of<S: Space>(state: &State<S>, a: usize, stage: Stage) -> u32 {

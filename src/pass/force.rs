@@ -9,11 +9,47 @@
 //! Twin: shaders/pass/force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::method::{ArtificialForm, Gradient};
 use crate::pair::{Pair, blocks, mirror_tensor, pair_coupling, velocity_difference};
 use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration, Fuller (2.59) with the sign of the viscosity mended",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.pair_volume(), &[VolumetricStrain]),
+            when(|m| m.pair_velocity(), &[Velocity]),
+            when(|m| m.adjoint(), &[CorrectedStress]),
+            when(|m| !m.adjoint(), &[SpecificStress]),
+            when(|m| m.scalar_form(), &[ArtificialPressure]),
+            when(|m| m.principal_form(), &[ArtificialStress]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.pair_volume(), &[VolumetricStrain]),
+            when(|m| m.pair_velocity(), &[Velocity]),
+            when(|m| m.adjoint(), &[CorrectedStress]),
+            when(|m| !m.adjoint(), &[SpecificStress]),
+            when(|m| m.scalar_form(), &[ArtificialPressure]),
+            when(|m| m.principal_form(), &[ArtificialStress]),
+        ],
+        writes: &[
+            always(&[Acceleration]),
+            when(|m| m.internal_energy, &[InternalPower]),
+            when(|m| m.dissipated_power(), &[DissipatedPower]),
+        ],
+    }
+};
 
 /// What the sum over neighbours gives.
 #[derive(Clone, Copy)]
@@ -31,27 +67,21 @@ impl<S: Space> Default for Sums<S> {
 }
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
     if !(state.method.internal_energy || state.method.dissipated_power()) {
-        super::write(&mut accelerations, |a, slot| *slot = sum(state, a).acceleration);
-        state.particles.acceleration = accelerations;
+        fill!(state, acceleration, |a, slot| *slot = sum(state, a).acceleration);
         return;
     }
-    let mut sums = vec![Sums::<S>::default(); accelerations.len()];
+    let mut sums = vec![Sums::<S>::default(); state.params.count as usize];
     super::write(&mut sums, |a, slot| *slot = sum(state, a));
     for (a, sum) in sums.iter().enumerate() {
-        accelerations[a] = sum.acceleration;
+        state.columns.acceleration[a] = sum.acceleration;
         if state.method.internal_energy {
-            state.particles.internal_power[a] = sum.internal_power;
+            state.columns.internal_power[a] = sum.internal_power;
         }
         if state.method.dissipated_power() {
-            state.particles.dissipated_power[a] = sum.dissipated_power;
+            state.columns.dissipated_power[a] = sum.dissipated_power;
         }
     }
-    state.particles.acceleration = accelerations;
 }
 
 #[inline(always)]
@@ -59,7 +89,7 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> Sums<S> {
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     let method = &state.method;
     let half = S::Real::of(0.5);
-    let own = state.particles.specific_stress.get(a).copied().unwrap_or_default();
+    let own = state.columns.specific_stress.get(a).copied().unwrap_or_default();
     let mut sums = Sums::default();
     for block in blocks(state, a) {
         let weights = if method.artificial_stress.is_some() { block.weights(&kernel) } else { Default::default() };
@@ -95,7 +125,7 @@ fn sum<S: Space>(state: &State<S>, a: usize) -> Sums<S> {
 /// (sigma_a/rho_a^2 + sigma_b/rho_b^2) grad_a W_ab
 #[inline(always)]
 fn specific_stress<S: Space>(state: &State<S>, own: S::Sym, pair: &Pair<S>, gradient: S::Vec) -> S::Vec {
-    let stress = &state.particles.specific_stress;
+    let stress = &state.columns.specific_stress;
     if pair.image == 0 {
         return S::sym_vec(own + stress[pair.b], gradient);
     }
@@ -106,7 +136,7 @@ fn specific_stress<S: Space>(state: &State<S>, own: S::Sym, pair: &Pair<S>, grad
 /// sigma_a K_a^-1 + sigma_b K_b^-1
 #[inline(always)]
 fn corrected_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Mat {
-    let stress = &state.particles.corrected_stress;
+    let stress = &state.columns.corrected_stress;
     if pair.image == 0 {
         return stress[a] + stress[pair.b];
     }
@@ -116,11 +146,11 @@ fn corrected_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::
 /// (R_a + R_b) grad_a W_ab
 #[inline(always)]
 fn artificial_stress<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>, gradient: S::Vec) -> S::Vec {
-    let particles = &state.particles;
+    let columns = &state.columns;
     if state.method.artificial_stress == Some(ArtificialForm::Scalar) {
-        return gradient * (particles.artificial_pressure[a] + particles.artificial_pressure[pair.b]);
+        return gradient * (columns.artificial_pressure[a] + columns.artificial_pressure[pair.b]);
     }
-    let stress = &particles.artificial_stress;
+    let stress = &columns.artificial_stress;
     if pair.image == 0 {
         return S::sym_vec(stress[a] + stress[pair.b], gradient);
     }

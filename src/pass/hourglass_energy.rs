@@ -2,18 +2,33 @@
 //! the linear H: see [`super::bond_force`]. Run only when asked for. Twin: shaders/pass/hourglass_energy.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use super::deform::{corrected, sum_bonds};
+use super::write::fill;
 use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "energy of the hourglass term, when asked for",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.corrects_rate(), &[ReferenceCorrection]),
+            when(|m| m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
+            when(|m| m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+        ],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement])],
+        writes: &[always(&[HourglassEnergy])],
     }
-    let mut energies = std::mem::take(&mut state.particles.hourglass_energy);
-    with_bonds!(state, B => super::write(&mut energies, |a, slot| *slot = energy::<S, B>(state, a)));
-    state.particles.hourglass_energy = energies;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    with_bonds!(state, B => fill!(state, hourglass_energy, |a, slot| *slot = energy::<S, B>(state, a)));
 }
 
 fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
@@ -27,5 +42,5 @@ fn energy<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Real {
             sum += S::inner(stray, stray) * (S::Real::of(-1.0) * bond.row.weight);
         }
     }
-    S::Real::of(0.5) * hourglass_stiffness(state, a) * state.particles.reference_volume[a] * sum
+    S::Real::of(0.5) * hourglass_stiffness(state, a) * state.columns.reference_volume[a] * sum
 }

@@ -2,14 +2,31 @@
 //! for a list that will follow the particles. Twin: shaders/pass/keep_gradients.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::shape_function::{Node, Shape, nodes};
 use crate::state::State;
 use crate::tensor::Space;
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "keeps the gradients of the shape functions of the reference configuration",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, VolumetricStrain, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, VolumetricStrain]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        writes: &[always(&[KeptCount, KeptNeighbors, KeptGradients])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     let count = state.params.count as usize;
     let mut rows: Vec<Vec<S::Vec>> = vec![Vec::new(); count];
     super::write(&mut rows, |a, row| {
@@ -20,10 +37,10 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     for (a, row) in rows.iter().enumerate() {
         // The last is a itself, from which nothing differs.
         let entries: Vec<u32> = state.neighbors_of(a).to_vec();
-        state.particles.kept_count[a] = entries.len() as u32;
+        state.columns.kept_count[a] = entries.len() as u32;
         for (k, (&entry, &gradient)) in entries.iter().zip(row).enumerate() {
-            state.kept_neighbors[k * count + a] = entry;
-            state.kept_gradients[k * count + a] = gradient;
+            state.columns.kept_neighbors[k * count + a] = entry;
+            state.columns.kept_gradients[k * count + a] = gradient;
         }
     }
 }

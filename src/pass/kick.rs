@@ -1,31 +1,51 @@
 //! v += part step a, then the boundary conditions. Twin: shaders/pass/kick.wgsl
 
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::{fill, with_columns};
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances the velocity by a part of the step",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[Velocity, Acceleration]),
+            when(|m| m.constraints, &[Constraint]),
+            when(|m| m.internal_energy, &[InternalEnergy, InternalPower]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy, DissipatedPower]),
+            when(|m| m.compensated, &[VelocityCarry]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[Velocity]),
+            when(|m| m.compensated, &[VelocityCarry]),
+            when(|m| m.internal_energy, &[InternalEnergy]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
     let part = S::Real::of(stage.part) * state.clock.step;
     let time = state.clock.start + state.clock.elapsed + S::Real::of(stage.time) * state.clock.step;
-    let mut velocity = std::mem::take(&mut state.particles.velocity);
-    let before = if state.method.internal_energy { velocity.clone() } else { Vec::new() };
+    let before = if state.method.internal_energy { state.columns.velocity.clone() } else { Vec::new() };
     if state.method.compensated {
-        let mut carry = std::mem::take(&mut state.particles.velocity_carry);
-        for (a, (v, c)) in velocity.iter_mut().zip(&mut carry).enumerate() {
-            compensated_add::<S>(v, c, acceleration(state, a, time) * part);
-            *v = prescribe(state, a, *v, time);
-        }
-        state.particles.velocity_carry = carry;
+        with_columns!(state, [velocity, velocity_carry] => {
+            for (a, (v, c)) in velocity.iter_mut().zip(&mut velocity_carry).enumerate() {
+                compensated_add::<S>(v, c, acceleration(state, a, time) * part);
+                *v = prescribe(state, a, *v, time);
+            }
+        });
     } else {
-        super::write(&mut velocity, |a, v| {
+        fill!(state, velocity, |a, v| {
             *v += acceleration(state, a, time) * part;
             *v = prescribe(state, a, *v, time);
         });
     }
-    state.particles.velocity = velocity;
     add_energy(state, part, &before, stage);
 }
 
@@ -33,15 +53,15 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
 #[inline(always)]
 pub fn acceleration<S: Space>(state: &State<S>, a: usize, time: S::Real) -> S::Vec {
     let params = &state.params;
-    let mut sum = state.particles.acceleration[a];
+    let mut sum = state.columns.acceleration[a];
     if state.method.body_force {
         let g = [params.body_force_x, params.body_force_y, params.body_force_z];
         for k in 0..S::DIMENSION {
             sum[k] += g[k];
         }
     }
-    if state.method.constraints && state.particles.constraint[a] != 0 {
-        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+    if state.method.constraints && state.columns.constraint[a] != 0 {
+        let constraint = &state.constraints[state.columns.constraint[a] as usize - 1];
         let factor = state.course_factor(constraint, time);
         let vector = [constraint.x, constraint.y, constraint.z];
         for k in 0..S::DIMENSION {
@@ -56,8 +76,8 @@ pub fn acceleration<S: Space>(state: &State<S>, a: usize, time: S::Real) -> S::V
 /// Replaces the components of a velocity that a boundary condition prescribes.
 #[inline(always)]
 pub fn prescribe<S: Space>(state: &State<S>, a: usize, mut v: S::Vec, time: S::Real) -> S::Vec {
-    if state.method.constraints && state.particles.constraint[a] != 0 {
-        let constraint = &state.constraints[state.particles.constraint[a] as usize - 1];
+    if state.method.constraints && state.columns.constraint[a] != 0 {
+        let constraint = &state.constraints[state.columns.constraint[a] as usize - 1];
         let factor = state.course_factor(constraint, time);
         let vector = [constraint.x, constraint.y, constraint.z];
         for k in 0..S::DIMENSION {
@@ -76,12 +96,12 @@ pub fn prescribe<S: Space>(state: &State<S>, a: usize, mut v: S::Vec, time: S::R
 /// the difference added, kinetic and internal energy sum to a constant.
 fn add_energy<S: Space>(state: &mut State<S>, part: S::Real, before: &[S::Vec], stage: Stage) {
     let later = S::Real::of(kicks_later(stage));
-    let particles = &mut state.particles;
-    for (a, energy) in particles.internal_energy.iter_mut().enumerate() {
-        let change = (particles.velocity[a] - before[a]) * later;
-        *energy += (particles.internal_power[a] - S::inner(particles.acceleration[a], change)) * part;
+    let columns = &mut state.columns;
+    for (a, energy) in columns.internal_energy.iter_mut().enumerate() {
+        let change = (columns.velocity[a] - before[a]) * later;
+        *energy += (columns.internal_power[a] - S::inner(columns.acceleration[a], change)) * part;
     }
-    for (energy, power) in particles.dissipated_energy.iter_mut().zip(&particles.dissipated_power) {
+    for (energy, power) in columns.dissipated_energy.iter_mut().zip(&columns.dissipated_power) {
         *energy += *power * part;
     }
 }

@@ -3,11 +3,43 @@
 //! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, FACETS, Runs, always, when};
+use super::write::{GRAIN, with_columns, write_rows};
 use crate::facet::{facing, fade, stick};
 use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "smoothed distance of each facet from the surface that faces it, and friction",
+        entries: FACETS,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                FacetOwner,
+                FacetReferencePosition,
+                FacetArea,
+                FacetDisplacement,
+                FacetNormal,
+                FacetContactCount,
+                FacetContacts,
+            ]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.friction, &[FacetMove, FacetSlip]),
+        ],
+        neighbours: &[
+            always(&[FacetOwner, FacetReferencePosition, FacetDisplacement, FacetNormal]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.friction, &[FacetMove]),
+        ],
+        writes: &[
+            always(&[FacetPressed, FacetGap, FacetSpread, FacetPull, FacetEdge, FacetPressure, FacetEnergy]),
+            when(|m| m.friction, &[FacetSlip, FacetTraction, FacetHeat]),
+        ],
+    }
+};
 
 /// What the pass finds for one facet.
 #[derive(Clone, Copy, Default)]
@@ -26,46 +58,42 @@ struct Contact<R, V> {
 type ContactIn<S> = Contact<<S as Space>::Real, <S as Space>::Vec>;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut own = std::mem::take(&mut state.particles);
-    let take = std::mem::take::<Vec<S::Real>>;
-    let (mut gap, mut spread, mut pull) = (take(&mut own.facet_gap), take(&mut own.facet_spread), take(&mut own.facet_pull));
-    let (mut edge, mut pressure) = (take(&mut own.facet_edge), take(&mut own.facet_pressure));
-    let (mut energy, mut heat) = (take(&mut own.facet_energy), take(&mut own.facet_heat));
-    let mut traction = std::mem::take(&mut own.facet_traction);
-    let mut slip = if state.method.friction { own.facet_slip.clone() } else { Vec::new() };
-    state.particles = own;
-    let measured = ((&mut gap[..], &mut spread[..]), (&mut pull[..], &mut edge[..]));
-    let rows = (measured, (&mut pressure[..], &mut energy[..]));
-    let found = |e: usize| if state.particles.facet_contact_count[e] > 0 { measure(state, e) } else { Contact::default() };
-    if state.method.friction {
-        let rubbed = (&mut slip[..], (&mut traction[..], &mut heat[..]));
-        write_rows((rows, rubbed), GRAIN, |e, (row, (slip, (traction, heat)))| {
-            let contact = found(e);
-            (*slip, *traction, *heat) = (contact.slip, contact.traction, contact.heat);
-            contact.put(row);
-        });
-    } else {
-        write_rows(rows, GRAIN, |e, row| found(e).put(row));
-    }
-    tell(state, &pull);
-    let own = &mut state.particles;
-    (own.facet_gap, own.facet_spread, own.facet_pull) = (gap, spread, pull);
-    (own.facet_edge, own.facet_pressure, own.facet_energy) = (edge, pressure, energy);
-    (own.facet_slip, own.facet_traction, own.facet_heat) =
-        if state.method.friction { (slip, traction, heat) } else { Default::default() };
+    with_columns!(state, [facet_gap, facet_spread, facet_pull, facet_edge, facet_pressure, facet_energy] => {
+        let measured = ((&mut facet_gap[..], &mut facet_spread[..]), (&mut facet_pull[..], &mut facet_edge[..]));
+        let rows = (measured, (&mut facet_pressure[..], &mut facet_energy[..]));
+        if state.method.friction {
+            // The slip before is read while the new one is written.
+            let mut slip = state.columns.facet_slip.clone();
+            with_columns!(state, [facet_traction, facet_heat] => {
+                let rubbed = (&mut slip[..], (&mut facet_traction[..], &mut facet_heat[..]));
+                write_rows((rows, rubbed), GRAIN, |e, (row, (slip, (traction, heat)))| {
+                    let contact = found(state, e);
+                    (*slip, *traction, *heat) = (contact.slip, contact.traction, contact.heat);
+                    contact.put(row);
+                });
+            });
+            state.columns.facet_slip = slip;
+        } else {
+            write_rows(rows, GRAIN, |e, row| found(state, e).put(row));
+        }
+    });
+    tell(state);
+}
+
+#[inline(always)]
+fn found<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
+    if state.columns.facet_contact_count[e] > 0 { measure(state, e) } else { Contact::default() }
 }
 
 /// Marks the facets that press and those that they press on, with some that are only near.
-fn tell<S: Space>(state: &mut State<S>, pulls: &[S::Real]) {
+fn tell<S: Space>(state: &mut State<S>) {
     let total = state.params.facet_count as usize;
-    let columns = &mut state.particles;
-    for (e, _) in pulls.iter().enumerate().filter(|(_, pull)| **pull != S::Real::of(0.0)) {
+    let columns = &mut state.columns;
+    for (e, _) in columns.facet_pull.iter().enumerate().filter(|(_, pull)| **pull != S::Real::of(0.0)) {
         columns.facet_pressed[e] = 1;
         for k in 0..columns.facet_contact_count[e] as usize {
-            columns.facet_pressed[state.facet_contacts[k * total + e] as usize] = 1;
+            let f = columns.facet_contacts[k * total + e] as usize;
+            columns.facet_pressed[f] = 1;
         }
     }
 }
@@ -94,7 +122,7 @@ fn measure<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
     let sums = sum(state, e);
     let (zero, one) = (S::Real::of(0.0), S::Real::of(1.0));
     let pair = sums.pair;
-    let stiffness = pair.stiffness * state.particles.facet_area[e];
+    let stiffness = pair.stiffness * state.columns.facet_area[e];
     let spread = if sums.weight > zero { one / sums.weight } else { zero };
     let gap = sums.distance * spread;
     if gap >= zero {
@@ -108,7 +136,7 @@ fn measure<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
         spread,
         pull: zero - force * spread,
         edge: half * slope / pair.full,
-        pressure: force / state.particles.facet_area[e],
+        pressure: force / state.columns.facet_area[e],
         energy: half * whole,
         ..Contact::default()
     };
@@ -120,13 +148,13 @@ fn measure<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
 
 /// Heat of a tangential spring that comes off.
 fn let_go<S: Space>(state: &State<S>, e: usize, stiffness: S::Real) -> S::Real {
-    let slip = state.particles.facet_slip.get(e).copied().unwrap_or_default();
+    let slip = state.columns.facet_slip.get(e).copied().unwrap_or_default();
     S::Real::of(0.5) * stiffness * S::inner(slip, slip)
 }
 
 /// The tangential spring: it grows with the way that the facet slips over the other surface.
 fn rub<S: Space>(state: &State<S>, e: usize, sums: &Sums<S>, stiffness: S::Real, force: S::Real, contact: &mut ContactIn<S>) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let length = S::inner(sums.normal, sums.normal).sqrt();
     let normal = sums.normal * (S::Real::of(1.0) / length);
     let grown = columns.facet_slip[e] + columns.facet_move[e] - sums.moved * contact.spread;
@@ -140,13 +168,13 @@ fn rub<S: Space>(state: &State<S>, e: usize, sums: &Sums<S>, stiffness: S::Real,
 
 #[inline(always)]
 fn sum<S: Space>(state: &State<S>, e: usize) -> Sums<S> {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let (total, zero) = (state.params.facet_count as usize, S::Real::of(0.0));
     let a = columns.facet_owner[e] as usize;
     let (moved, normal) = (S::Vec::default(), S::Vec::default());
     let mut sums = Sums::<S> { weight: zero, distance: zero, moved, normal, pair: FacetPair::default() };
     for k in 0..columns.facet_contact_count[e] as usize {
-        let f = state.facet_contacts[k * total + e] as usize;
+        let f = state.columns.facet_contacts[k * total + e] as usize;
         let pair = state.listed_pair(a, f);
         sums.pair = *pair;
         let facing = facing(state, e, f, pair.range);

@@ -4,17 +4,27 @@
 //! A free obstacle's half kick comes first; the other half follows in [`super::load_obstacles`].
 
 use super::Stage;
+use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "moves rigid obstacles to the end of the step",
+        entries: &[Entry::new("main", Domain::One)],
+        runs: Runs::Running,
+        own: &[always(&[ObstacleDisplacement, ObstacleVelocity, ObstacleForce])],
+        neighbours: &[],
+        writes: &[always(&[ObstacleDisplacement, ObstacleVelocity]), when(|m| m.friction, &[ObstacleMove])],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let step = state.clock.step;
     for k in 0..state.params.obstacle_count as usize {
         let mover = state.movers[k];
-        let columns = &state.particles;
+        let columns = &state.columns;
         let before = columns.obstacle_displacement[k];
         let (velocity, after) = if mover.inverse_mass > S::Real::of(0.0) {
             let velocity = columns.obstacle_velocity[k] + half_kick(state, k);
@@ -22,10 +32,10 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         } else {
             prescribed(state, k)
         };
-        state.particles.obstacle_velocity[k] = velocity;
-        state.particles.obstacle_displacement[k] = after;
+        state.columns.obstacle_velocity[k] = velocity;
+        state.columns.obstacle_displacement[k] = after;
         if state.method.friction {
-            state.particles.obstacle_move[k] = after - before;
+            state.columns.obstacle_move[k] = after - before;
         }
     }
 }
@@ -34,7 +44,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 pub(super) fn half_kick<S: Space>(state: &State<S>, k: usize) -> S::Vec {
     let params = &state.params;
     let body_force = S::vec_of_reals([params.body_force_x, params.body_force_y, params.body_force_z]);
-    (state.particles.obstacle_force[k] * state.movers[k].inverse_mass + body_force) * (S::Real::of(0.5) * state.clock.step)
+    (state.columns.obstacle_force[k] * state.movers[k].inverse_mass + body_force) * (S::Real::of(0.5) * state.clock.step)
 }
 
 /// Velocity, and the displacement since time 0, at the end of the step; in a descent at the end of the load step.

@@ -5,11 +5,45 @@
 //! Friction pulls the other surface where the facet is, so that the two forces meet in one point.
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, FACETS, Runs, always, when};
+use super::write::{GRAIN, with_columns, write_rows};
 use crate::facet::{Facing, facing, lever};
 use crate::method::GapForm;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "force of other bodies' surfaces on each facet",
+        entries: FACETS,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                ReferencePosition,
+                DisplacementGradient,
+                FacetOwner,
+                FacetReferencePosition,
+                FacetDisplacement,
+                FacetNormal,
+                FacetContactCount,
+                FacetPressed,
+                FacetPull,
+                FacetContacts,
+            ]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| !m.along_normals(), &[FacetGap, FacetEdge]),
+            when(|m| m.friction, &[FacetTraction]),
+        ],
+        neighbours: &[
+            always(&[FacetOwner, FacetReferencePosition, FacetDisplacement, FacetNormal, FacetPull]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| !m.along_normals(), &[FacetGap, FacetEdge]),
+            when(|m| m.friction, &[FacetSpread, FacetTraction]),
+        ],
+        writes: &[always(&[FacetForce, FacetMoment])],
+    }
+};
 
 /// What acts on a facet.
 #[derive(Clone, Copy, Default)]
@@ -24,31 +58,26 @@ struct Load<V, M> {
 type LoadIn<S> = Load<<S as Space>::Vec, <S as Space>::Mat>;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let mut forces = std::mem::take(&mut state.particles.facet_force);
-    let mut moments = std::mem::take(&mut state.particles.facet_moment);
-    write_rows((&mut forces[..], &mut moments[..]), GRAIN, |e, (force, moment)| {
-        (*force, *moment) = if state.particles.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
+    with_columns!(state, [facet_force, facet_moment] => {
+        write_rows((&mut facet_force[..], &mut facet_moment[..]), GRAIN, |e, (force, moment)| {
+            (*force, *moment) = if state.columns.facet_pressed[e] > 0 { load(state, e) } else { Default::default() };
+        });
     });
-    state.particles.facet_force = forces;
-    state.particles.facet_moment = moments;
 }
 
 fn load<S: Space>(state: &State<S>, e: usize) -> (S::Vec, S::Mat) {
-    let a = state.particles.facet_owner[e] as usize;
-    let deformation = S::mat_identity() + state.particles.displacement_gradient[a];
+    let a = state.columns.facet_owner[e] as usize;
+    let deformation = S::mat_identity() + state.columns.displacement_gradient[a];
     let inverse = S::adjugate(deformation) * (S::Real::of(1.0) / S::determinant(deformation));
     let load = sum(state, e, inverse);
-    let normal = state.particles.facet_normal[e];
+    let normal = state.columns.facet_normal[e];
     let turning = load.turning - normal * S::inner(load.turning, normal);
     let moment = S::outer(normal, S::mat_vec(inverse, turning)) - S::outer(load.force, lever(state, e));
     (load.force, moment + load.aside)
 }
 
 fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let (total, zero) = (state.params.facet_count as usize, S::Real::of(0.0));
     let a = columns.facet_owner[e] as usize;
     let mut load = LoadIn::<S>::default();
@@ -56,7 +85,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
         load.force += columns.facet_traction[e];
     }
     for k in 0..columns.facet_contact_count[e] as usize {
-        let f = state.facet_contacts[k * total + e] as usize;
+        let f = state.columns.facet_contacts[k * total + e] as usize;
         if columns.facet_pull[e] == zero && columns.facet_pull[f] == zero {
             continue;
         }
@@ -77,7 +106,7 @@ fn sum<S: Space>(state: &State<S>, e: usize, inverse: S::Mat) -> LoadIn<S> {
 /// Adds the force of facet f on e.
 #[inline(always)]
 fn press<S: Space>(state: &State<S>, (e, f): (usize, usize), facing: &Facing<S>, load: &mut LoadIn<S>) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let (own, other) = (columns.facet_normal[e], columns.facet_normal[f]);
     let (pull, pulled) = (columns.facet_pull[e], columns.facet_pull[f]);
     let x = facing.x;

@@ -3,11 +3,45 @@
 //!
 //! Rates are summed, not states, so that f32 adds small numbers to small numbers until the last stage.
 
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
 use super::drift::moving_velocity;
 use super::kick::{acceleration, prescribe};
 use super::{Stage, compensated_add};
 use crate::state::State;
 use crate::tensor::{Linear, Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "adds a stage's rates and sets the next stage's state",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[Displacement, Velocity, Acceleration, DisplacementStart, VelocityStart, DisplacementSum, VelocitySum]),
+            when(|m| m.xsph, &[SmoothedVelocity]),
+            when(|m| m.constraints, &[Constraint]),
+            when(|m| m.shears(), &[DeviatoricStress, DeviatoricStressRate, DeviatoricStressStart, DeviatoricStressSum]),
+            when(|m| m.continuity(), &[VolumetricStrain, VolumetricStrainRate, VolumetricStrainStart, VolumetricStrainSum]),
+            when(
+                |m| m.evolved(),
+                &[DisplacementGradient, DisplacementGradientRate, DisplacementGradientStart, DisplacementGradientSum],
+            ),
+            when(|m| m.internal_energy, &[InternalEnergy, InternalPower, InternalEnergyStart, InternalEnergySum]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy, DissipatedPower, DissipatedEnergyStart, DissipatedEnergySum]),
+            when(|m| m.compensated, &[DisplacementCarry, VelocityCarry]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[Displacement, Velocity, DisplacementStart, VelocityStart, DisplacementSum, VelocitySum]),
+            when(|m| m.compensated, &[DisplacementCarry, VelocityCarry]),
+            when(|m| m.shears(), &[DeviatoricStress, DeviatoricStressStart, DeviatoricStressSum]),
+            when(|m| m.continuity(), &[VolumetricStrain, VolumetricStrainStart, VolumetricStrainSum]),
+            when(|m| m.evolved(), &[DisplacementGradient, DisplacementGradientStart, DisplacementGradientSum]),
+            when(|m| m.internal_energy, &[InternalEnergy, InternalEnergyStart, InternalEnergySum]),
+            when(|m| m.dissipated_power(), &[DissipatedEnergy, DissipatedEnergyStart, DissipatedEnergySum]),
+        ],
+    }
+};
 
 /// Advances one column whose rate is another.
 fn advance<R: Real, T: Linear<R>>(
@@ -45,12 +79,9 @@ fn advance_scalar<R: Real>(column: &mut [R], start: &mut [R], sum: &mut [R], rat
 }
 
 pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
     let step = state.clock.step;
     motion(state, stage);
-    let p = &mut state.particles;
+    let p = &mut state.columns;
     let stress_rate = &p.deviatoric_stress_rate;
     advance(
         &mut p.deviatoric_stress,
@@ -107,7 +138,7 @@ fn motion<S: Space>(state: &mut State<S>, stage: Stage) {
     let (time, next_time) = (now, now + S::Real::of(stage.time) * step);
     for a in 0..state.params.count as usize {
         let rates = (moving_velocity(state, a), acceleration(state, a, time));
-        let p = &mut state.particles;
+        let p = &mut state.columns;
         let (u, du) = next(p.displacement[a], &mut p.displacement_start[a], &mut p.displacement_sum[a], rates.0, step, stage);
         let (v, dv) = next(p.velocity[a], &mut p.velocity_start[a], &mut p.velocity_sum[a], rates.1, step, stage);
         (p.displacement[a], p.velocity[a]) = (u, v);
@@ -116,6 +147,6 @@ fn motion<S: Space>(state: &mut State<S>, stage: Stage) {
             compensated_add::<S>(&mut p.displacement[a], &mut p.displacement_carry[a], du);
             compensated_add::<S>(&mut p.velocity[a], &mut p.velocity_carry[a], dv);
         }
-        state.particles.velocity[a] = prescribe(state, a, state.particles.velocity[a], next_time);
+        state.columns.velocity[a] = prescribe(state, a, state.columns.velocity[a], next_time);
     }
 }

@@ -8,17 +8,36 @@
 //! is the reference volume: the force is then minus the derivative of the energy. Twin: shaders/pass/shape_force.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::shape_function::{Node, Shape, nodes, seen};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "acceleration by the shape functions' gradients, Shutov & Klyuchantsev (5)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, ShapeStress, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.current(), &[VolumetricStrain]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, ShapeStress]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.correction(), &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
+            when(|m| m.current(), &[VolumetricStrain]),
+        ],
+        writes: &[always(&[Acceleration])],
     }
-    let mut accelerations = std::mem::take(&mut state.particles.acceleration);
-    super::write(&mut accelerations, |a, slot| *slot = sum(state, a, stage.reference));
-    state.particles.acceleration = accelerations;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
+    fill!(state, acceleration, |a, slot| *slot = sum(state, a, stage.reference));
 }
 
 #[inline(always)]
@@ -28,7 +47,7 @@ fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
         sum += pull(state, &node);
     }
     // What volume the particle has now for each of its reference volume.
-    let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.particles.volumetric_strain[a] };
+    let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.columns.volumetric_strain[a] };
     sum * (-volume / state.body(a).density)
 }
 
@@ -38,6 +57,6 @@ fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
 fn pull<S: Space>(state: &State<S>, node: &Node<S>) -> S::Vec {
     let from_a = seen(state, node.image, node.x * S::Real::of(-1.0));
     let gradient = Shape::of(state, node.b).gradient(from_a, node.weight, node.slope);
-    let force = S::mat_vec(state.particles.shape_stress[node.b], gradient);
-    seen(state, node.image, force) * (state.particles.reference_volume[node.b] * node.coupled)
+    let force = S::mat_vec(state.columns.shape_stress[node.b], gradient);
+    seen(state, node.image, force) * (state.columns.reference_volume[node.b] * node.coupled)
 }

@@ -3,18 +3,33 @@
 //! Twin: shaders/pass/smooth_velocity.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::pair::{blocks, pair_coupling, velocity_difference};
 use crate::smoothing::Scaled;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "velocity averaged over neighbours, Fuller (3.2)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, Velocity, VolumetricStrain, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity, VolumetricStrain]),
+            when(|m| m.many_bodies, &[Body]),
+        ],
+        writes: &[always(&[SmoothedVelocity])],
     }
-    let mut smoothed = std::mem::take(&mut state.particles.smoothed_velocity);
-    super::write(&mut smoothed, |a, slot| *slot = smooth(state, a));
-    state.particles.smoothed_velocity = smoothed;
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    fill!(state, smoothed_velocity, |a, slot| *slot = smooth(state, a));
 }
 
 #[inline(always)]
@@ -28,5 +43,5 @@ fn smooth<S: Space>(state: &State<S>, a: usize) -> S::Vec {
             sum += velocity_difference(state, a, &pair) * (mass / density * weight);
         }
     }
-    state.particles.velocity[a] + sum * state.params.smoothing_weight
+    state.columns.velocity[a] + sum * state.params.smoothing_weight
 }

@@ -2,43 +2,56 @@
 //! artificial stress R. Twin: shaders/pass/specific_stress.wgsl
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::fill;
 use crate::material;
 use crate::method::{ArtificialForm, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "stress in the form that the pair force sums, and the artificial stress",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[VolumetricStrain]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.shears(), &[DeviatoricStress]),
+            when(|m| m.adjoint(), &[Correction]),
+        ],
+        neighbours: &[],
+        writes: &[
+            when(|m| m.adjoint(), &[CorrectedStress]),
+            when(|m| !m.adjoint(), &[SpecificStress]),
+            when(|m| m.scalar_form(), &[ArtificialPressure]),
+            when(|m| m.principal_form(), &[ArtificialStress]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     if state.method.gradient == Gradient::Adjoint {
-        let mut corrected = std::mem::take(&mut state.particles.corrected_stress);
-        super::write(&mut corrected, |a, slot| {
-            *slot = S::mat_mat(S::mat_of_sym(stress(state, a)), state.particles.correction[a]);
+        fill!(state, corrected_stress, |a, slot| {
+            *slot = S::mat_mat(S::mat_of_sym(stress(state, a)), state.columns.correction[a]);
         });
-        state.particles.corrected_stress = corrected;
     } else {
-        let mut specific = std::mem::take(&mut state.particles.specific_stress);
-        super::write(&mut specific, |a, slot| *slot = stress(state, a) * square_of_volume(state, a));
-        state.particles.specific_stress = specific;
+        fill!(state, specific_stress, |a, slot| *slot = stress(state, a) * square_of_volume(state, a));
     }
     match state.method.artificial_stress {
         Some(ArtificialForm::Scalar) => {
-            let mut artificial = std::mem::take(&mut state.particles.artificial_pressure);
-            super::write(&mut artificial, |a, slot| {
-                let pressure = material::pressure(state.body(a), state.particles.volumetric_strain[a]);
+            fill!(state, artificial_pressure, |a, slot| {
+                let pressure = material::pressure(state.body(a), state.columns.volumetric_strain[a]);
                 let tension = (-pressure).max(S::Real::of(0.0));
                 *slot = -state.params.artificial_epsilon * tension * square_of_volume(state, a);
             });
-            state.particles.artificial_pressure = artificial;
         }
         Some(ArtificialForm::Principal) => {
-            let mut artificial = std::mem::take(&mut state.particles.artificial_stress);
-            super::write(&mut artificial, |a, slot| {
+            fill!(state, artificial_stress, |a, slot| {
                 let tension = tensile_part::<S>(stress(state, a));
                 *slot = tension * (-state.params.artificial_epsilon * square_of_volume(state, a));
             });
-            state.particles.artificial_stress = artificial;
         }
         None => {}
     }
@@ -54,9 +67,9 @@ fn square_of_volume<S: Space>(state: &State<S>, a: usize) -> S::Real {
 /// sigma = -P 1 + S, Fuller (2.29) with the sign mended.
 #[inline(always)]
 pub fn stress<S: Space>(state: &State<S>, a: usize) -> S::Sym {
-    let pressure = material::pressure(state.body(a), state.particles.volumetric_strain[a]);
+    let pressure = material::pressure(state.body(a), state.columns.volumetric_strain[a]);
     let sigma = S::diagonal(-pressure);
-    if state.method.shear { sigma + state.particles.deviatoric_stress[a] } else { sigma }
+    if state.method.shear { sigma + state.columns.deviatoric_stress[a] } else { sigma }
 }
 
 /// The tensor with its compressive principal values set to zero: Gray, Monaghan & Swift 2001.

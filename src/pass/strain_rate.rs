@@ -8,23 +8,39 @@
 //! which makes it exact for linear velocity fields (Bonet & Lok 1999).
 
 use super::Stage;
+use super::declaration::{Declaration, LISTED, Runs, always, when};
+use super::write::fill;
 use crate::method::Gradient;
 use crate::pair::{blocks, pair_coupling, safe_inverse, velocity_difference};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "velocity gradient, Fuller (2.14)",
+        entries: LISTED,
+        runs: Runs::Running,
+        own: &[
+            always(&[ReferencePosition, Displacement, Velocity, NeighborCount, Neighbors]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| !m.corrects_rate(), &[VolumetricStrain]),
+        ],
+        neighbours: &[
+            always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.corrects_rate(), &[VolumetricStrain]),
+        ],
+        writes: &[always(&[VelocityGradient])],
+    }
+};
+
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let corrected = state.method.gradient != Gradient::Plain;
-    let mut gradients = std::mem::take(&mut state.particles.velocity_gradient);
-    if corrected {
-        super::write(&mut gradients, |a, slot| *slot = corrected_gradient(state, a));
+    if state.method.gradient == Gradient::Plain {
+        fill!(state, velocity_gradient, |a, slot| *slot = plain_gradient(state, a));
     } else {
-        super::write(&mut gradients, |a, slot| *slot = plain_gradient(state, a));
+        fill!(state, velocity_gradient, |a, slot| *slot = corrected_gradient(state, a));
     }
-    state.particles.velocity_gradient = gradients;
 }
 
 #[inline(always)]

@@ -8,6 +8,8 @@
 //! q = sqrt(3 J2) (Wilkins 1964). Fuller (5.1) as printed lacks the root: sY^2/q^2 takes S below the surface.
 
 use super::Stage;
+use super::declaration::{Declaration, PARTICLES, Runs, always, when};
+use super::write::fill;
 use crate::material::{
     self,
     yielding::{Before, Yielded, yielded},
@@ -16,32 +18,51 @@ use crate::method::{Density, Gradient};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "advances volumetric strain and deviatoric stress by a step",
+        entries: PARTICLES,
+        runs: Runs::Running,
+        own: &[
+            always(&[VelocityGradient]),
+            when(|m| m.shears() && m.many_bodies, &[Body]),
+            when(|m| m.shears(), &[DeviatoricStress]),
+            when(|m| m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.continuity() || m.plastic(), &[VolumetricStrain]),
+            when(|m| m.plastic() && m.heated(), &[Temperature]),
+            when(|m| m.plastic() && m.dissipated_energy, &[DissipatedEnergy]),
+        ],
+        neighbours: &[],
+        writes: &[
+            when(|m| m.shears(), &[DeviatoricStress]),
+            when(|m| m.plastic(), &[EquivalentPlasticStrain]),
+            when(|m| m.plastic() && m.heated(), &[Temperature]),
+            when(|m| m.plastic() && m.dissipated_energy, &[DissipatedEnergy]),
+            when(|m| m.continuity(), &[VolumetricStrain]),
+        ],
     }
+};
+
+pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let step = state.clock.step;
     if state.method.shear {
-        let mut stress = std::mem::take(&mut state.particles.deviatoric_stress);
-        super::write(&mut stress, |a, slot| {
+        fill!(state, deviatoric_stress, |a, slot| {
             let gradient = middle_gradient(state, a);
             let half = material::deviatoric_rate::<S>(state.body(a).shear_modulus, gradient) * (S::Real::of(0.5) * step);
             let rotated = rotate::<S>(*slot + half, S::skew_part(gradient) * step);
             *slot = rotated + half;
         });
-        state.particles.deviatoric_stress = stress;
     }
     if state.method.plastic() {
         yield_to(state);
     }
     if state.method.density == Density::Continuity {
-        let mut strain = std::mem::take(&mut state.particles.volumetric_strain);
-        super::write(&mut strain, |a, slot| {
+        fill!(state, volumetric_strain, |a, slot| {
             let growth = S::trace(middle_gradient(state, a)) * step;
             // Crank-Nicolson of J' = J tr L, written for J - 1 so that f32 keeps small strains.
             *slot += (S::Real::of(1.0) + *slot) * growth / (S::Real::of(1.0) - S::Real::of(0.5) * growth);
         });
-        state.particles.volumetric_strain = strain;
     }
 }
 
@@ -51,23 +72,23 @@ fn yield_to<S: Space>(state: &mut State<S>) {
     let none = Yielded { deviator: S::Sym::default(), growth: zero, work: zero };
     let mut returns = vec![none; state.params.count as usize];
     super::write(&mut returns, |a, slot| {
-        let particles = &state.particles;
+        let columns = &state.columns;
         let before = Before {
-            strain: particles.equivalent_plastic_strain[a],
-            temperature: particles.temperature.get(a).copied().unwrap_or(zero),
-            volume: S::Real::of(1.0) + particles.volumetric_strain[a],
+            strain: columns.equivalent_plastic_strain[a],
+            temperature: columns.temperature.get(a).copied().unwrap_or(zero),
+            volume: S::Real::of(1.0) + columns.volumetric_strain[a],
         };
-        *slot = yielded::<S>(state.body(a), particles.deviatoric_stress[a], before, state.clock.step);
+        *slot = yielded::<S>(state.body(a), columns.deviatoric_stress[a], before, state.clock.step);
     });
     for (a, Yielded { deviator, growth, work }) in returns.into_iter().enumerate() {
         let body = *state.body(a);
-        let particles = &mut state.particles;
-        particles.deviatoric_stress[a] = deviator;
-        particles.equivalent_plastic_strain[a] += growth;
-        if let Some(temperature) = particles.temperature.get_mut(a) {
+        let columns = &mut state.columns;
+        columns.deviatoric_stress[a] = deviator;
+        columns.equivalent_plastic_strain[a] += growth;
+        if let Some(temperature) = columns.temperature.get_mut(a) {
             *temperature += material::rise(&body, work);
         }
-        if let Some(heat) = particles.dissipated_energy.get_mut(a) {
+        if let Some(heat) = columns.dissipated_energy.get_mut(a) {
             *heat += work * (S::Real::of(1.0) / body.density);
         }
     }
@@ -78,7 +99,7 @@ fn yield_to<S: Space>(state: &mut State<S>) {
 /// volume's step comes out exact: J -> J/(1 - step tr L).
 #[inline(always)]
 fn middle_gradient<S: Space>(state: &State<S>, a: usize) -> S::Mat {
-    let gradient = state.particles.velocity_gradient[a];
+    let gradient = state.columns.velocity_gradient[a];
     if state.method.gradient != Gradient::Plain {
         return gradient;
     }

@@ -3,12 +3,42 @@
 //! shaders/pass/touch_obstacles.wgsl
 
 use super::Stage;
-use super::write::{GRAIN, write_rows};
+use super::declaration::{Declaration, FACETS, Runs, always, when};
+use super::write::{GRAIN, with_columns, write_rows};
 use crate::facet::{lever, stick};
 use crate::obstacle;
 use crate::rows::FacetPair;
 use crate::state::State;
 use crate::tensor::{Real, Space};
+
+pub const PASS: Declaration = {
+    use crate::fields::Field::*;
+    Declaration {
+        about: "force of rigid obstacles on each facet",
+        entries: FACETS,
+        runs: Runs::Running,
+        own: &[
+            always(&[
+                ReferencePosition,
+                FacetOwner,
+                FacetReferencePosition,
+                FacetArea,
+                FacetDisplacement,
+                FacetObstacle,
+                ObstacleDisplacement,
+            ]),
+            when(|m| m.many_bodies, &[Body]),
+            when(|m| m.friction, &[FacetMove, FacetObstacleSlip, ObstacleMove]),
+            when(|m| m.gap.is_some(), &[FacetForce, FacetMoment, FacetPressure, FacetEnergy]),
+            when(|m| m.friction && m.gap.is_some(), &[FacetHeat]),
+        ],
+        neighbours: &[],
+        writes: &[
+            always(&[FacetForce, FacetMoment, FacetPressure, FacetEnergy, FacetLoad, FacetObstacle]),
+            when(|m| m.friction, &[FacetHeat, FacetObstacleSlip]),
+        ],
+    }
+};
 
 /// What the pass finds for one facet.
 #[derive(Clone, Copy, Default)]
@@ -25,48 +55,42 @@ struct Touch<R, V> {
 type TouchIn<S> = Touch<<S as Space>::Real, <S as Space>::Vec>;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    if state.clock.running == 0 {
-        return;
-    }
-    let (added, friction) = (state.method.gap.is_some(), state.method.friction);
-    let mut own = std::mem::take(&mut state.particles);
-    let (mut obstacle, mut load) = (std::mem::take(&mut own.facet_obstacle), std::mem::take(&mut own.facet_load));
-    let (mut force, mut moment) = (std::mem::take(&mut own.facet_force), std::mem::take(&mut own.facet_moment));
-    let (mut pressure, mut energy) = (std::mem::take(&mut own.facet_pressure), std::mem::take(&mut own.facet_energy));
-    let (mut slip, mut heat) = (std::mem::take(&mut own.facet_obstacle_slip), std::mem::take(&mut own.facet_heat));
-    state.particles = own;
-    let put = |e: usize, row: Row<'_, S>, slip: S::Vec| {
-        let touch = touch(state, e, slip);
-        // Out of touch as before: there is nothing to add, nor to take back.
-        if touch.obstacle == 0 && *row.obstacle == 0 {
-            return touch;
+    with_columns!(state, [
+        facet_obstacle, facet_load, facet_force, facet_moment, facet_pressure, facet_energy, facet_obstacle_slip, facet_heat
+    ] => {
+        let loads = ((&mut facet_obstacle[..], &mut facet_load[..]), (&mut facet_force[..], &mut facet_moment[..]));
+        let columns = (loads, (&mut facet_pressure[..], &mut facet_energy[..]));
+        if state.method.friction {
+            let added = state.method.gap.is_some();
+            write_rows((columns, (&mut facet_obstacle_slip[..], &mut facet_heat[..])), GRAIN, |e, (row, (slip, heat))| {
+                let touch = put(state, e, Row::of(row), *slip);
+                *slip = touch.slip;
+                *heat = if added { *heat + touch.heat } else { touch.heat };
+            });
+        } else {
+            write_rows(columns, GRAIN, |e, row| {
+                put(state, e, Row::of(row), S::Vec::default());
+            });
         }
-        let moment = S::outer(touch.load, lever(state, e)) * S::Real::of(-1.0);
-        let kept = if added { S::Real::of(1.0) } else { S::Real::of(0.0) };
-        *row.obstacle = touch.obstacle;
-        *row.load = touch.load;
-        *row.force = *row.force * kept + touch.load;
-        *row.moment = *row.moment * kept + moment;
-        *row.pressure = *row.pressure * kept + touch.pressure;
-        *row.energy = *row.energy * kept + touch.energy;
-        touch
-    };
-    let loads = ((&mut obstacle[..], &mut load[..]), (&mut force[..], &mut moment[..]));
-    let columns = (loads, (&mut pressure[..], &mut energy[..]));
-    if friction {
-        write_rows((columns, (&mut slip[..], &mut heat[..])), GRAIN, |e, (row, (slip, heat))| {
-            let touch = put(e, Row::of(row), *slip);
-            *slip = touch.slip;
-            *heat = if added { *heat + touch.heat } else { touch.heat };
-        });
-    } else {
-        write_rows(columns, GRAIN, |e, row| {
-            put(e, Row::of(row), S::Vec::default());
-        });
+    });
+}
+
+#[inline(always)]
+fn put<S: Space>(state: &State<S>, e: usize, row: Row<'_, S>, slip: S::Vec) -> TouchIn<S> {
+    let touch = touch(state, e, slip);
+    // Out of touch as before: there is nothing to add, nor to take back.
+    if touch.obstacle == 0 && *row.obstacle == 0 {
+        return touch;
     }
-    let own = &mut state.particles;
-    (own.facet_obstacle, own.facet_load, own.facet_force, own.facet_moment) = (obstacle, load, force, moment);
-    (own.facet_pressure, own.facet_energy, own.facet_obstacle_slip, own.facet_heat) = (pressure, energy, slip, heat);
+    let moment = S::outer(touch.load, lever(state, e)) * S::Real::of(-1.0);
+    let kept = if state.method.gap.is_some() { S::Real::of(1.0) } else { S::Real::of(0.0) };
+    *row.obstacle = touch.obstacle;
+    *row.load = touch.load;
+    *row.force = *row.force * kept + touch.load;
+    *row.moment = *row.moment * kept + moment;
+    *row.pressure = *row.pressure * kept + touch.pressure;
+    *row.energy = *row.energy * kept + touch.energy;
+    touch
 }
 
 /// What the pass writes of one facet.
@@ -94,7 +118,7 @@ impl<'c, S: Space> Row<'c, S> {
 
 /// The obstacle that a facet is deepest in, counted from 1, its distance and its normal.
 fn deepest<S: Space>(state: &State<S>, e: usize) -> (usize, S::Real, S::Vec) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let body = state.body_index(columns.facet_owner[e] as usize);
     let mut found = (0, S::Real::of(0.0), S::Vec::default());
     for (k, obstacle) in state.obstacles.iter().enumerate() {
@@ -118,7 +142,7 @@ fn touch<S: Space>(state: &State<S>, e: usize, slip: S::Vec) -> TouchIn<S> {
     if obstacle == 0 {
         return Touch::default();
     }
-    let columns = &state.particles;
+    let columns = &state.columns;
     let body = state.body_index(columns.facet_owner[e] as usize);
     let pair = state.obstacle_pairs[(obstacle - 1) * state.params.body_count as usize + body];
     let stiffness = pair.stiffness * columns.facet_area[e];
@@ -145,7 +169,7 @@ fn rub<S: Space>(
     (pair, stiffness, force): (&FacetPair<S::Real>, S::Real, S::Real),
     touch: &mut TouchIn<S>,
 ) {
-    let columns = &state.particles;
+    let columns = &state.columns;
     let grown = touch.slip + columns.facet_move[e] - columns.obstacle_move[k];
     let along = grown - normal * S::inner(grown, normal);
     (touch.slip, touch.heat) = stick::<S>(along, stiffness, pair.friction * force);

@@ -75,8 +75,29 @@ impl<'c, T: Send> Rows for Wide<'c, T> {
     }
 }
 
-/// Sets every element of a column from its index and the state. The column must have been taken out of the state: a
-/// pass reads its neighbours' values of other columns, never of the one it writes.
+/// Takes columns out of the state for a block that writes them and reads all others of the state, and puts them back.
+/// The block must not return early.
+macro_rules! with_columns {
+    ($state:ident, [$($column:ident),+] => $body:expr) => {{
+        $(#[allow(unused_mut)] let mut $column = std::mem::take(&mut $state.columns.$column);)+
+        $body;
+        $($state.columns.$column = $column;)+
+    }};
+}
+pub(crate) use with_columns;
+
+/// Sets every row of a column from its index and the state, from which the column is taken out meanwhile: a pass reads
+/// its neighbours' values of other columns, never of the one that it writes.
+macro_rules! fill {
+    ($state:ident, $column:ident, $value:expr) => {{
+        let mut rows = std::mem::take(&mut $state.columns.$column);
+        $crate::pass::write::write(&mut rows, $value);
+        $state.columns.$column = rows;
+    }};
+}
+pub(crate) use fill;
+
+/// Sets every element of a column that is not the state's from its index.
 #[inline(always)]
 pub(crate) fn write<T: Send>(column: &mut [T], value: impl Fn(usize, &mut T) + Sync) {
     write_rows(column, GRAIN, value);

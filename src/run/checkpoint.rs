@@ -1,7 +1,7 @@
 //! What a run needs to go on with the same bits: the carried fields in their order, time and step.
 
 use crate::backend::Backend;
-use crate::particles::Field;
+use crate::fields::Field;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -4,10 +4,10 @@
 use super::checkpoint::Checkpoint;
 use super::{Finished, Options};
 use crate::backend::Choice;
+use crate::fields::Field;
 use crate::observable::{Moment, Observer, Table, Value};
 use crate::output::csv::{self, Series};
 use crate::output::{self, Painter, View};
-use crate::particles::Field;
 use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};

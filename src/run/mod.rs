@@ -10,8 +10,8 @@ pub use summary::{Stopwatch, Summary};
 use checkpoint::Checkpoint;
 
 use crate::backend::{Backend, Choice, open};
+use crate::fields::Field;
 use crate::observable::{Moment, Observer, Table, Value, fields_read, observers, profile};
-use crate::particles::Field;
 use crate::rows::Fault;
 use crate::scene::Scene;
 use indicatif::{ProgressBar, ProgressStyle};

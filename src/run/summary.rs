@@ -2,7 +2,7 @@
 
 use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
-use crate::particles::Field;
+use crate::fields::Field;
 use crate::scene::Scene;
 use crate::step;
 use serde_json::json;

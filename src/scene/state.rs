@@ -3,9 +3,8 @@
 use super::Scene;
 use super::file::Viscosity;
 use crate::bond::BondTable;
-use crate::method::Method;
-use crate::particles::{Field, Particles, Set, Type};
-use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params, REDUCTION_BLOCK, SCAN_BLOCK};
+use crate::fields::Columns;
+use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params};
 use crate::state::State;
 use crate::step;
 use crate::tensor::{Real, Space};
@@ -28,13 +27,9 @@ impl Scene {
         let mut method = self.method.clone();
         method.compensated = compensated;
         let params = self.params::<S::Real>();
-        let quasi_static = method.quasi_static.is_some();
-        let (count, cells) = (self.particles.len(), params.cell_total as usize);
         let real = S::Real::of;
-        let kept = if keeps_gradients(&method) { count * params.list_capacity as usize } else { 0 };
-        let zone_forces = if method.contact.zones.is_some() { count * params.contact_capacity as usize } else { 0 };
         let mut state = State {
-            particles: Particles::allocate(params.counts(), &step::fields(&method)),
+            columns: Columns::allocate(params.counts(), &step::fields(&method)),
             method,
             params,
             clock: Clock::default(),
@@ -44,24 +39,11 @@ impl Scene {
             obstacles: self.obstacles.iter().map(|obstacle| obstacle.shape.cast()).collect(),
             movers: self.obstacles.iter().map(super::SceneObstacle::mover).collect(),
             obstacle_pairs: self.obstacles.iter().flat_map(|o| &o.pairs).map(|pair| pair.map(real)).collect(),
-            facet_contacts: vec![0; self.facets.len() * params.facet_capacity as usize],
-            block_load: vec![S::Vec::default(); params.facet_blocks() * self.obstacles.len()],
             contact_pairs: self.contacts.iter().flatten().map(|pair| pair.map(real)).collect(),
             constraints: Vec::new(),
             course: Vec::new(),
-            cell_count: vec![0; cells],
-            cell_start: vec![0; cells + 1],
-            cell_block: vec![0; cells.div_ceil(SCAN_BLOCK)],
-            cell_particles: vec![0; count],
-            neighbors: vec![0; count * params.list_capacity as usize],
-            contacts: vec![0; count * params.contact_capacity as usize],
-            zone_forces: vec![S::Vec::default(); zone_forces],
-            kept_neighbors: vec![0; kept],
-            kept_gradients: vec![S::Vec::default(); kept],
             bond_table: BondTable::default(),
-            block_bound: vec![[real(0.0); 4]; count.div_ceil(REDUCTION_BLOCK)],
             balance: Balance::default(),
-            block_residual: vec![[real(0.0); 8]; if quasi_static { count.div_ceil(REDUCTION_BLOCK) } else { 0 }],
         };
         self.fill_constraints(&mut state);
         self.fill_particles(&mut state);
@@ -69,25 +51,11 @@ impl Scene {
         state
     }
 
-    /// Bytes that the tables take where a number has `word` bytes.
+    /// Bytes that the columns take where a number has `word` bytes.
     pub fn state_bytes(&self, word: usize, compensated: bool) -> u64 {
         let mut method = self.method.clone();
         method.compensated = compensated;
-        let bytes = |field: Field| {
-            let size = if field.kind() == Type::Integer { 4 } else { word };
-            size * field.kind().words_in(self.dimension())
-        };
-        let params = self.params::<f64>();
-        let of = |set: Set| step::fields(&method).into_iter().filter(|f| f.set() == set).map(bytes).sum::<usize>();
-        let (columns, facet) = (of(Set::Particle), of(Set::Facet) + 4 * params.facet_capacity as usize);
-        let lists = params.list_capacity + params.contact_capacity;
-        let force = if method.contact.zones.is_some() { word * Type::Vec.words_in(self.dimension()) } else { 0 };
-        let kept = if keeps_gradients(&method) { 4 + word * Type::Vec.words_in(self.dimension()) } else { 0 };
-        let particle = (columns
-            + 4 * (1 + lists as usize)
-            + kept * params.list_capacity as usize
-            + force * params.contact_capacity as usize) as u64;
-        particle * self.particles.len() as u64 + (facet * self.facets.len()) as u64 + 8 * u64::from(params.cell_total)
+        self.params::<f64>().counts().bytes(&step::fields(&method), self.dimension(), word)
     }
 
     fn fill_constraints<S: Space>(&self, state: &mut State<S>) {
@@ -109,7 +77,7 @@ impl Scene {
     }
 
     fn fill_particles<S: Space>(&self, state: &mut State<S>) {
-        let columns = &mut state.particles;
+        let columns = &mut state.columns;
         for (i, particle) in self.particles.iter().enumerate() {
             let body = &self.bodies[particle.body as usize];
             columns.number[i] = i as u32;
@@ -140,7 +108,7 @@ impl Scene {
     }
 
     fn fill_facets<S: Space>(&self, state: &mut State<S>) {
-        let columns = &mut state.particles;
+        let columns = &mut state.columns;
         for (e, facet) in self.facets.iter().enumerate() {
             let owner = facet.owner as usize;
             if columns.facets[owner] == 0 {
@@ -370,10 +338,6 @@ impl super::SceneObstacle {
         let condition = self.condition.map_or(0, |index| index as u32 + 1);
         Mover { condition, inverse_mass: R::of(self.inverse_mass) }
     }
-}
-
-fn keeps_gradients(method: &Method) -> bool {
-    method.corrected_kernel.is_some_and(|options| options.keeps_gradients())
 }
 
 impl super::SceneBody {

@@ -2,7 +2,6 @@
 
 use super::{call, drift_by, list, order};
 use crate::method::CorrectedKernel;
-use crate::particles::Field;
 use crate::pass::{Call, Pass, Stage};
 
 /// A pass whose sums run over the reference configuration, or over the current one.
@@ -65,17 +64,4 @@ pub(super) fn drift(options: CorrectedKernel, calls: &mut Vec<Call>) {
     if options.current() {
         list(false, calls);
     }
-}
-
-/// Fields of these options; `staged`: in Runge-Kutta.
-pub(super) fn fields(options: CorrectedKernel, staged: bool) -> Vec<Field> {
-    use Field::*;
-    let wanted = [
-        (true, &[ShapeStress][..]),
-        (options.correction, &[ShapeFactor, ShapeSlope, ShapeFactorGradient, ShapeSlopeGradient]),
-        (options.current(), &[VolumetricStrain]),
-        (options.keeps_gradients(), &[KeptCount]),
-        (options.evolved() && staged, &[DisplacementGradientRate, DisplacementGradientStart, DisplacementGradientSum]),
-    ];
-    wanted.iter().filter(|(on, _)| *on).flat_map(|(_, fields)| fields.iter().copied()).collect()
 }

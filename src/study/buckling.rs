@@ -85,7 +85,7 @@ fn find_in<S: Space<Real = f64>>(scene: &Scene) -> Result<Buckling, String> {
 /// The first part of the load with a negative pivot, within [`BRACKET`]; leaves the path just before it.
 fn bisect<S: Space<Real = f64>>(path: &mut Path<S>, load_steps: u32) -> Result<f64, String> {
     let (mut low, mut step) = (0.0, 1.0 / f64::from(load_steps));
-    let mut kept = path.state.particles.displacement.clone();
+    let mut kept = path.state.columns.displacement.clone();
     let mut bracketed = false;
     while !bracketed || step > BRACKET * low {
         if low >= BEYOND {
@@ -94,10 +94,10 @@ fn bisect<S: Space<Real = f64>>(path: &mut Path<S>, load_steps: u32) -> Result<f
         step *= if bracketed { 0.5 } else { 1.0 };
         if path.go(low + step)?.negative() > 0 {
             bracketed = true;
-            path.state.particles.displacement.clone_from(&kept);
+            path.state.columns.displacement.clone_from(&kept);
         } else {
             low += step;
-            kept.clone_from(&path.state.particles.displacement);
+            kept.clone_from(&path.state.columns.displacement);
         }
     }
     Ok(low + step)
@@ -108,7 +108,7 @@ fn report<S: Space<Real = f64>>(scene: &Scene, path: &Path<S>, axis: usize, part
     let (low, high) = scene.extent();
     let spacing = scene.bodies[0].spacing;
     let section: f64 = (0..scene.dimension()).filter(|&k| k != axis).map(|k| (high - low)[k] + spacing).product();
-    let particles = &path.state.particles;
+    let particles = &path.state.columns;
     let end = |at: f64| {
         let rows = (0..scene.particles.len()).filter(|&a| (particles.reference_position[a][axis] - at).abs() < 0.5 * spacing);
         let moved: Vec<f64> = rows.map(|a| particles.displacement[a][axis]).collect();
@@ -122,8 +122,8 @@ fn report<S: Space<Real = f64>>(scene: &Scene, path: &Path<S>, axis: usize, part
 fn load<S: Space<Real = f64>>(scene: &Scene, path: &Path<S>) -> f64 {
     let state = &path.state;
     let net = |number: u32| {
-        let own = (0..scene.particles.len()).filter(|&a| state.particles.constraint.get(a) == Some(&number));
-        let force = |a: usize| DVec3::from_array(S::vec_to(state.particles.acceleration[a])) * state.mass(a);
+        let own = (0..scene.particles.len()).filter(|&a| state.columns.constraint.get(a) == Some(&number));
+        let force = |a: usize| DVec3::from_array(S::vec_to(state.columns.acceleration[a])) * state.mass(a);
         own.map(force).sum::<DVec3>().length()
     };
     (1..=scene.constraints.len() as u32).map(net).fold(0.0, f64::max)
@@ -137,9 +137,9 @@ fn mode<S: Space<Real = f64>>(path: &Path<S>, factors: &Factors) -> Vec<DVec3> {
         let size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
         x.iter_mut().for_each(|x| *x /= size);
     }
-    let mut moved = vec![DVec3::ZERO; path.state.particles.number.len()];
+    let mut moved = vec![DVec3::ZERO; path.state.columns.number.len()];
     for (unknown, x) in path.unknowns.iter().zip(x) {
-        moved[path.state.particles.number[unknown.particle] as usize][unknown.axis] = x;
+        moved[path.state.columns.number[unknown.particle] as usize][unknown.axis] = x;
     }
     let largest = moved.iter().map(|v| v.length()).fold(0.0, f64::max);
     moved.into_iter().map(|v| v / largest).collect()

@@ -1,6 +1,6 @@
 //! The GPU beside its twins, and the shaders that it runs.
 
 mod mirror;
-mod parity;
+pub mod parity;
 mod precision;
-mod shaders;
+pub mod shaders;

@@ -3,7 +3,7 @@
 //! Before each pass the GPU and both twins get the same numbers, all of them f32. What they are compared by is
 //! [`compare`]'s rule; what is compared is every binding that the shader can write, as reflection finds it.
 
-mod cases;
+pub mod cases;
 mod compare;
 mod tables;
 mod trial;
@@ -14,10 +14,10 @@ use compare::Row;
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::backend::gpu::{Gpu, Options};
+use lithosph::fields::{Field, SCAN_BLOCK};
 use lithosph::method::{FLAGS, Method};
-use lithosph::particles::Field;
 use lithosph::pass::{Call, Pass, Stage};
-use lithosph::rows::{Fault, SCAN_BLOCK};
+use lithosph::rows::Fault;
 use lithosph::scene::Scene;
 use lithosph::state::State;
 use lithosph::step;
@@ -185,9 +185,9 @@ fn the_gpu_and_its_twin_stop_with_the_same_fault() {
     let tight = Case { formulation: "list_capacity = 8", ..case };
     assert_eq!(faults(&adapter, &tight, |_| ()), [Some(Fault::ListFull); 2]);
     for bad in [f32::NAN, f32::INFINITY] {
-        assert_eq!(faults(&adapter, &case, |state| state.particles.velocity[999].0[1] = bad), [Some(Fault::NotFinite); 2]);
+        assert_eq!(faults(&adapter, &case, |state| state.columns.velocity[999].0[1] = bad), [Some(Fault::NotFinite); 2]);
     }
-    assert_eq!(faults(&adapter, &case, |state| state.particles.volumetric_strain[300] = -1.5), [Some(Fault::Inverted); 2]);
+    assert_eq!(faults(&adapter, &case, |state| state.columns.volumetric_strain[300] = -1.5), [Some(Fault::Inverted); 2]);
 }
 
 /// Two rings that meet after a few steps.

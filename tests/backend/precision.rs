@@ -5,7 +5,7 @@ use crate::common::{adapter, in_order, parse, steps};
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
 use lithosph::backend::gpu::Gpu;
-use lithosph::particles::Field;
+use lithosph::fields::Field;
 use lithosph::scene::Scene;
 use lithosph::state::State;
 use lithosph::tensor::{Plane, Tuple};
@@ -119,7 +119,7 @@ step = {STEP:e}
 fn steps_below_the_last_digit_add_up() {
     let mut state = block().state::<Plane<f32>>(true);
     // Far along already: the displacement itself, not the reference, is large.
-    state.particles.displacement.iter_mut().for_each(|u| *u = Tuple([PLACE, PLACE]));
+    state.columns.displacement.iter_mut().for_each(|u| *u = Tuple([PLACE, PLACE]));
     // As f32 holds the numbers.
     let wanted = f64::from(STEPS) * f64::from(STEP as f32) * f64::from(SPEED as f32);
     for (name, mut backend) in backends(&state) {

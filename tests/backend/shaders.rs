@@ -81,7 +81,7 @@ fn shaders_of_every_scene_are_valid() {
     assert!(seen.len() >= 20 && wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn random_method(random: &mut Random) -> Method {
+pub fn random_method(random: &mut Random) -> Method {
     use Integrator::*;
     let many_bodies = random.coin();
     let symmetry = random.coin();
@@ -114,7 +114,7 @@ fn random_method(random: &mut Random) -> Method {
 }
 
 /// The same in the Total Lagrangian formulation, as far as a scene of it can go.
-fn random_lagrangian(random: &mut Random) -> Method {
+pub fn random_lagrangian(random: &mut Random) -> Method {
     let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
     let chosen = 1 + random.below(15);
     let laws: Vec<Law> = all.into_iter().enumerate().filter(|(k, _)| chosen >> k & 1 == 1).map(|(_, law)| law).collect();
@@ -140,7 +140,7 @@ fn random_lagrangian(random: &mut Random) -> Method {
 }
 
 /// The same by corrected kernels, each of its combinations of options.
-fn random_corrected(random: &mut Random) -> Method {
+pub fn random_corrected(random: &mut Random) -> Method {
     let mut lagrangian = random_lagrangian(random);
     while lagrangian.plastic() {
         lagrangian = random_lagrangian(random);

@@ -6,8 +6,8 @@ pub mod patches;
 pub mod sandbox;
 
 use lithosph::backend::device::{Want, choose};
-use lithosph::backend::{Backend, Columns};
-use lithosph::particles::Field;
+use lithosph::backend::{Backend, Fetched};
+use lithosph::fields::Field;
 use lithosph::rows::Clock;
 use lithosph::scene::Scene;
 use std::io::Write;
@@ -89,7 +89,7 @@ pub fn steps(backend: &mut dyn Backend, steps: u32) -> Clock<f64> {
 
 /// A field with its particles in order of their numbers, `width` numbers a particle.
 pub fn in_order(backend: &mut dyn Backend, field: Field) -> Vec<f64> {
-    let columns: Columns = backend.fetch(&[Field::Number, field]).unwrap();
+    let columns: Fetched = backend.fetch(&[Field::Number, field]).unwrap();
     let (numbers, values) = (&columns[&Field::Number], &columns[&field]);
     let width = values.len() / numbers.len();
     let mut ordered = vec![0.0; values.len()];

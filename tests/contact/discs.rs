@@ -3,8 +3,8 @@
 use crate::common::parse;
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
+use lithosph::fields::Field;
 use lithosph::observable::Moment;
-use lithosph::particles::Field;
 use lithosph::scene::Scene;
 use lithosph::tensor::{Plane, Space};
 

@@ -42,13 +42,13 @@ fn laws_with_an_energy_keep_all_in_the_eulerian_formulation_too() {
 
 /// Energy of all contacts, and the force on each particle.
 fn contacts(state: &mut State<Plane<f64>>) -> (f64, Vec<[f64; 2]>) {
-    state.particles.acceleration.iter_mut().for_each(|a| *a = Default::default());
+    state.columns.acceleration.iter_mut().for_each(|a| *a = Default::default());
     if state.method.contact.colour_field {
         Pass::SumColour.run(state, Stage::default());
     }
     Pass::ContactForce.run(state, Stage::default());
-    let forces = state.particles.acceleration.iter().enumerate().map(|(a, pull)| [pull[0], pull[1]].map(|x| x * state.mass(a)));
-    (state.particles.contact_energy.iter().sum(), forces.collect())
+    let forces = state.columns.acceleration.iter().enumerate().map(|(a, pull)| [pull[0], pull[1]].map(|x| x * state.mass(a)));
+    (state.columns.contact_energy.iter().sum(), forces.collect())
 }
 
 #[test]
@@ -56,8 +56,8 @@ fn forces_are_minus_the_gradients_of_the_energies() {
     for (law, _) in WITH_ENERGY {
         let mut state = begun::<Plane<f64>>(&discs(law, LAGRANGIAN, [-1.2, 1.3], 0.0)).state;
         let mut random = Random(5);
-        for a in 0..state.particles.displacement.len() {
-            (0..2).for_each(|k| state.particles.displacement[a][k] = 0.05 * random.signed());
+        for a in 0..state.columns.displacement.len() {
+            (0..2).for_each(|k| state.columns.displacement[a][k] = 0.05 * random.signed());
         }
         let (energy, forces) = contacts(&mut state);
         let strongest = forces.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -65,9 +65,9 @@ fn forces_are_minus_the_gradients_of_the_energies() {
         for a in (0..forces.len()).filter(|&a| forces[a][0].abs() > 0.05 * strongest) {
             for (k, force) in forces[a].iter().enumerate() {
                 let mut at = |shift: f64| {
-                    state.particles.displacement[a][k] += shift;
+                    state.columns.displacement[a][k] += shift;
                     let energy = contacts(&mut state).0;
-                    state.particles.displacement[a][k] -= shift;
+                    state.columns.displacement[a][k] -= shift;
                     energy
                 };
                 let slope = (at(1e-6) - at(-1e-6)) / 2e-6;

@@ -30,7 +30,7 @@ fn blocks(contacts: &str, formulation: &str) -> String {
 fn pulls(scene: &Scene) -> [f64; 3] {
     let state = begun::<Plane<f64>>(scene).state;
     let mut pulls = [0.0f64; 3];
-    for (a, acceleration) in state.particles.acceleration.iter().enumerate() {
+    for (a, acceleration) in state.columns.acceleration.iter().enumerate() {
         let body = state.body_index(a);
         pulls[body] = pulls[body].max(acceleration[0].abs());
     }

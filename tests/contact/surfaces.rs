@@ -4,7 +4,7 @@ use crate::common::{in_order, parse, steps};
 use crate::pass::lagrangian::{assert_force_is_the_gradient_of_the_energy, assert_momenta_stay, begun, energy, resultants};
 use glam::DVec3;
 use lithosph::backend::cpu::Cpu;
-use lithosph::particles::Field;
+use lithosph::fields::Field;
 use lithosph::scene::Scene;
 use lithosph::tensor::{Plane, Solid, Space};
 
@@ -54,7 +54,7 @@ fn between_obstacles(dimension: usize) -> Scene {
 }
 
 fn contact_energy<S: Space<Real = f64>>(scene: &Scene) -> f64 {
-    begun::<S>(scene).state.particles.contact_energy.iter().sum()
+    begun::<S>(scene).state.columns.contact_energy.iter().sum()
 }
 
 #[test]
@@ -90,10 +90,10 @@ fn sums(cpu: &mut Cpu<Plane<f64>>) -> [f64; 3] {
     let state = &cpu.state;
     let (mut momentum, mut spin) = (0.0, 0.0);
     for a in 0..state.params.count as usize {
-        let (x, v, m) = (state.position(a), state.particles.velocity[a], state.mass(a));
+        let (x, v, m) = (state.position(a), state.columns.velocity[a], state.mass(a));
         (momentum, spin) = (momentum + m * v[0], spin + m * (x[0] * v[1] - x[1] * v[0]));
     }
-    let heat: f64 = (0..state.params.count as usize).map(|a| state.mass(a) * state.particles.dissipated_energy[a]).sum();
+    let heat: f64 = (0..state.params.count as usize).map(|a| state.mass(a) * state.columns.dissipated_energy[a]).sum();
     [momentum, spin, heat]
 }
 
@@ -155,9 +155,9 @@ fn kept<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> [f64; 7] {
         (momentum, spin, motion) = (momentum + v * m, spin + x.cross(v) * m, motion + 0.5 * m * v.length_squared());
     };
     for a in 0..state.params.count as usize {
-        add(vector(state.position(a)), vector(state.particles.velocity[a]), state.mass(a));
+        add(vector(state.position(a)), vector(state.columns.velocity[a]), state.mass(a));
     }
-    let ball = &state.particles;
+    let ball = &state.columns;
     add(center(S::DIMENSION) + vector(ball.obstacle_displacement[0]), vector(ball.obstacle_velocity[0]), BALL);
     let [[a, b, c], [d, e, f]] = [momentum.to_array(), spin.to_array()];
     [a, b, c, d, e, f, motion + stored]
@@ -168,12 +168,12 @@ fn assert_a_free_ball_gives_what_it_loses<S: Space<Real = f64>>() {
     let mut cpu = Cpu::new(scene.state::<S>(false));
     steps(&mut cpu, 0);
     let before = kept(&mut cpu);
-    let fall = |cpu: &Cpu<S>| cpu.state.particles.obstacle_velocity[0][S::DIMENSION - 1];
+    let fall = |cpu: &Cpu<S>| cpu.state.columns.obstacle_velocity[0][S::DIMENSION - 1];
     let first = fall(&cpu);
     steps(&mut cpu, 700);
     let after = kept(&mut cpu);
     assert!(first < 0.0 && fall(&cpu) > 0.1 * -first, "the ball leaves upward: {first} {}", fall(&cpu));
-    assert_eq!(cpu.state.particles.facet_obstacle.iter().max(), Some(&0), "and has left");
+    assert_eq!(cpu.state.columns.facet_obstacle.iter().max(), Some(&0), "and has left");
     for k in 0..6 {
         let size = BALL * 0.05 * if k < 3 { 1.0 } else { 5.0 };
         assert!((after[k] - before[k]).abs() < 1e-12 * size, "{k}: {before:?} {after:?}");

@@ -24,8 +24,8 @@ fn blocks(zones: &str, formulation: &str) -> Scene {
 }
 
 fn found(state: &State<Plane<f64>>, body: usize, kind: u32) -> Vec<usize> {
-    let particles = &state.particles;
-    (0..particles.surface.len()).filter(|&a| state.body_index(a) == body && particles.surface[a] == kind).collect()
+    let columns = &state.columns;
+    (0..columns.surface.len()).filter(|&a| state.body_index(a) == body && columns.surface[a] == kind).collect()
 }
 
 #[test]
@@ -38,19 +38,19 @@ fn surfaces_corners_and_normals_of_blocks_are_found_in_both_formulations() {
                 // Beside a corner 11 of 24 neighbours are left, which makes a corner of it too; diagonally behind it 15.
                 assert_eq!((rim.len(), corners.len()), (2 * (long as usize + high as usize) - 12, 12), "{formulation} {normals}");
                 let middle = |a: &usize| {
-                    let x = state.particles.reference_position[*a];
+                    let x = state.columns.reference_position[*a];
                     let low = if body == 0 { [2.3, 5.8] } else { [0.0, 0.0] };
                     [(x[0] - low[0] - 0.5 * long) / (0.5 * long), (x[1] - low[1] - 0.5 * high) / (0.5 * high)]
                 };
                 for a in rim.iter().filter(|a| middle(a)[0].abs() < 0.2) {
-                    let n = state.particles.surface_normal[*a];
+                    let n = state.columns.surface_normal[*a];
                     assert!(n[0].abs() < 1e-12 && (n[1] - middle(a)[1].signum()).abs() < 1e-12, "{n:?}");
                 }
             }
         }
     }
     let every = begun::<Plane<f64>>(&blocks("surface = 1.0, corner = 0.0", LAGRANGIAN)).state;
-    assert!(every.particles.surface.iter().all(|&kind| kind == SURFACE));
+    assert!(every.columns.surface.iter().all(|&kind| kind == SURFACE));
 }
 
 /// Turned as a whole by a quarter.
@@ -58,15 +58,15 @@ fn surfaces_corners_and_normals_of_blocks_are_found_in_both_formulations() {
 fn normals_turn_with_a_body_unless_they_are_those_of_the_start() {
     for (normals, turns) in [("without_surface", true), ("initial", false)] {
         let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = '{normals}'"), LAGRANGIAN)).state;
-        let before = state.particles.surface_normal.clone();
+        let before = state.columns.surface_normal.clone();
         for a in 0..before.len() {
-            let x = state.particles.reference_position[a];
-            state.particles.displacement[a] = Plane::<f64>::vec_from([-x[1] - x[0], x[0] - x[1], 0.0]);
+            let x = state.columns.reference_position[a];
+            state.columns.displacement[a] = Plane::<f64>::vec_from([-x[1] - x[0], x[0] - x[1], 0.0]);
         }
         let calls = lithosph::step::begin_run(&state.method);
         calls.iter().for_each(|call| call.pass.run(&mut state, call.stage));
         for (a, old) in before.iter().enumerate() {
-            let new = state.particles.surface_normal[a];
+            let new = state.columns.surface_normal[a];
             let wanted = if turns { [-old[1], old[0]] } else { [old[0], old[1]] };
             assert!((new[0] - wanted[0]).abs() < 1e-9 && (new[1] - wanted[1]).abs() < 1e-9, "{normals}: {new:?}");
         }
@@ -76,13 +76,13 @@ fn normals_turn_with_a_body_unless_they_are_those_of_the_start() {
 /// Force on the upper block's particle in the middle of its lowest row.
 fn force(zones: &str) -> [f64; 2] {
     let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = 'all', {zones}"), LAGRANGIAN)).state;
-    state.particles.acceleration.iter_mut().for_each(|a| *a = Default::default());
+    state.columns.acceleration.iter_mut().for_each(|a| *a = Default::default());
     Pass::ZoneForce.run(&mut state, Stage::default());
-    let middle = (0..state.particles.surface.len()).find(|&a| {
-        let x = state.particles.reference_position[a];
+    let middle = (0..state.columns.surface.len()).find(|&a| {
+        let x = state.columns.reference_position[a];
         (x[0] - 8.8).abs() < 0.1 && (x[1] - 6.3).abs() < 0.1
     });
-    let pull = state.particles.acceleration[middle.unwrap()];
+    let pull = state.columns.acceleration[middle.unwrap()];
     [pull[0], pull[1]]
 }
 

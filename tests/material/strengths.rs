@@ -8,7 +8,7 @@ use lithosph::material::yielding::{Before, mises, yielded};
 use lithosph::material::{self, Declaration, Law, Point, Role, strain};
 use lithosph::rows::Body;
 use lithosph::scene::Scene;
-use lithosph::tensor::{Linear, Plane, Solid, Space};
+use lithosph::tensor::{Plane, Solid, Space};
 
 fn metals() -> impl Iterator<Item = Law> {
     Law::of_role(Role::Strength).filter(|law| law.yields())

@@ -3,10 +3,10 @@
 
 use crate::common::deformation::body;
 use crate::common::parse;
-use lithosph::backend::Columns;
+use lithosph::backend::Fetched;
+use lithosph::fields::Field;
 use lithosph::material::{Law, inelastic, stored_energy};
 use lithosph::observable::{Moment, Value, fields_of_path, fields_read, observers};
-use lithosph::particles::Field;
 use lithosph::scene::Scene;
 use lithosph::tensor::{Plane, Tuple};
 
@@ -47,7 +47,7 @@ fn text(dimension: usize, law: Law, more: &str) -> String {
 }
 
 /// The same numbers for every particle.
-fn columns(scene: &Scene, rows: &[(Field, &[f64])]) -> Columns {
+fn columns(scene: &Scene, rows: &[(Field, &[f64])]) -> Fetched {
     let count = scene.particles.len();
     let numbers = (Field::Number, (0..count).map(|i| i as f64).collect());
     rows.iter().map(|(field, row)| (*field, row.repeat(count))).chain([numbers]).collect()

@@ -3,8 +3,8 @@
 use crate::common::{Random, in_order, largest, parse, steps};
 use lithosph::backend::Backend;
 use lithosph::backend::cpu::Cpu;
+use lithosph::fields::Field;
 use lithosph::material::stored_energy;
-use lithosph::particles::Field;
 use lithosph::pass::{Call, Pass, Stage};
 use lithosph::scene::Scene;
 use lithosph::state::State;
@@ -48,8 +48,8 @@ pub fn respond<S: Space>(state: &mut State<S>) {
 
 fn displace<S: Space<Real: Real>>(state: &mut State<S>, of: impl Fn(usize, [f64; 3]) -> [f64; 3]) {
     for a in 0..state.params.count as usize {
-        let x = S::vec_to(state.particles.reference_position[a]);
-        state.particles.displacement[a] = S::vec_from(of(a, x));
+        let x = S::vec_to(state.columns.reference_position[a]);
+        state.columns.displacement[a] = S::vec_from(of(a, x));
     }
 }
 
@@ -64,13 +64,12 @@ pub fn energy<S: Space<Real = f64>>(state: &mut State<S>) -> f64 {
     if state.method.hourglass {
         Pass::HourglassEnergy.run(state, Stage::default());
     }
-    let particles = &state.particles;
+    let columns = &state.columns;
     (0..state.params.count as usize)
         .map(|a| {
-            let stored = stored_energy::<S>(state.body(a), particles.displacement_gradient[a], S::Sym::default());
-            let stray =
-                [&particles.hourglass_energy, &particles.contact_energy].map(|column| column.get(a).copied().unwrap_or(0.0));
-            stored * particles.reference_volume[a] + stray[0] + stray[1]
+            let stored = stored_energy::<S>(state.body(a), columns.displacement_gradient[a], S::Sym::default());
+            let stray = [&columns.hourglass_energy, &columns.contact_energy].map(|column| column.get(a).copied().unwrap_or(0.0));
+            stored * columns.reference_volume[a] + stray[0] + stray[1]
         })
         .sum()
 }
@@ -81,20 +80,19 @@ pub fn assert_force_is_the_gradient_of_the_energy<S: Space<Real = f64>>(scene: &
     let count = state.params.count as usize;
     // Where a body has flowed, and now does not, its hourglass energy varies from particle to particle.
     let mut random = Random(5);
-    state.particles.equivalent_plastic_strain.iter_mut().for_each(|k| *k = random.unit());
+    state.columns.equivalent_plastic_strain.iter_mut().for_each(|k| *k = random.unit());
     let noise = scatter(count, 0.08);
     displace(state, |a, x| std::array::from_fn(|k| noise[a][k] + 0.05 * x[(k + 1) % S::DIMENSION]));
     respond(state);
-    let forces: Vec<[f64; 3]> =
-        (0..count).map(|a| S::vec_to(state.particles.acceleration[a]).map(|x| x * state.mass(a))).collect();
+    let forces: Vec<[f64; 3]> = (0..count).map(|a| S::vec_to(state.columns.acceleration[a]).map(|x| x * state.mass(a))).collect();
     let strongest = largest(forces.iter().flatten().copied());
     let mut random = Random(11);
     for _ in 0..12 {
         let (a, k, small) = (random.below(count), random.below(S::DIMENSION), 1e-5);
         let mut at = |shift: f64| {
-            state.particles.displacement[a][k] += shift;
+            state.columns.displacement[a][k] += shift;
             let energy = energy(state);
-            state.particles.displacement[a][k] -= shift;
+            state.columns.displacement[a][k] -= shift;
             energy
         };
         let slope = (at(small) - at(-small)) / (2.0 * small);
@@ -146,7 +144,7 @@ fn contact_forces_are_minus_the_gradient_of_the_energy_of_bodies_that_touch() {
         assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&scene);
         let mut state = begun::<Plane<f64>>(&scene).state;
         respond(&mut state);
-        assert!(state.particles.contact_energy.iter().sum::<f64>() > 1e-5);
+        assert!(state.columns.contact_energy.iter().sum::<f64>() > 1e-5);
     }
 }
 
@@ -163,7 +161,7 @@ pub fn resultants<S: Space<Real = f64>>(scene: &Scene) -> (f64, f64) {
     respond(&mut state);
     let (mut force, mut moment, mut scale) = (glam::DVec3::ZERO, glam::DVec3::ZERO, 0.0);
     for a in 0..state.params.count as usize {
-        let f = glam::DVec3::from_array(S::vec_to(state.particles.acceleration[a])) * state.mass(a);
+        let f = glam::DVec3::from_array(S::vec_to(state.columns.acceleration[a])) * state.mass(a);
         let x = glam::DVec3::from_array(S::vec_to(state.position(a)));
         (force, moment, scale) = (force + f, moment + x.cross(f), scale + f.length() * x.length());
     }
@@ -184,13 +182,13 @@ fn the_gradient_is_exact_for_linear_and_the_quadratic_one_for_quadratic_fields()
     let mut state = begun::<Plane<f64>>(&body(2, "")).state;
     displace(&mut state, |_, x| field(x));
     respond(&mut state);
-    for h in &state.particles.displacement_gradient {
+    for h in &state.columns.displacement_gradient {
         assert!(largest([h[0] - 0.1, h[1] - 0.05, h[2] + 0.2, h[3] - 0.15]) < 1e-10, "{h:?}");
     }
     let mut state = begun::<Plane<f64>>(&body(2, "gradient = 'quadratic'")).state;
     displace(&mut state, |_, x| [0.01 * x[0] * x[1], 0.02 * x[1] * x[1] - 0.01 * x[0] * x[0], 0.0]);
     respond(&mut state);
-    for (h, x) in state.particles.displacement_gradient.iter().zip(&state.particles.reference_position) {
+    for (h, x) in state.columns.displacement_gradient.iter().zip(&state.columns.reference_position) {
         let exact = [0.01 * x[1], -0.02 * x[0], 0.01 * x[0], 0.04 * x[1]];
         assert!(largest((0..4).map(|k| h[k] - exact[k])) < 1e-9, "{h:?} at {x:?}");
     }
@@ -202,10 +200,10 @@ fn residual<S: Space>(scene: &Scene, stretch: f64) -> f64 {
     displace(&mut state, |_, x| x.map(|x| stretch * x));
     respond(&mut state);
     let inside =
-        |a: &usize| S::vec_to(state.particles.reference_position[*a])[..S::DIMENSION].iter().all(|x| (6.0..14.0).contains(x));
+        |a: &usize| S::vec_to(state.columns.reference_position[*a])[..S::DIMENSION].iter().all(|x| (6.0..14.0).contains(x));
     let rows: Vec<usize> = (0..state.params.count as usize).filter(inside).collect();
     assert!(rows.len() > 20);
-    largest(rows.into_iter().flat_map(|a| S::vec_to(state.particles.acceleration[a]))) / stretch
+    largest(rows.into_iter().flat_map(|a| S::vec_to(state.columns.acceleration[a]))) / stretch
 }
 
 #[test]
@@ -234,7 +232,7 @@ fn a_rotation_makes_no_stress() {
         let mut state = begun::<Plane<f64>>(&body(2, formulation)).state;
         displace(&mut state, |_, x| [(cosine - 1.0) * x[0] - sine * x[1], sine * x[0] + (cosine - 1.0) * x[1], 0.0]);
         respond(&mut state);
-        let worst = largest(state.particles.acceleration.iter().flat_map(|a| [a[0], a[1]]));
+        let worst = largest(state.columns.acceleration.iter().flat_map(|a| [a[0], a[1]]));
         assert!(worst < 1e-10, "{worst:e}");
     }
 }
@@ -247,7 +245,7 @@ fn the_table_of_bonds_gives_the_forces_of_the_list() {
         let noise = scatter(state.params.count as usize, 0.05);
         displace(&mut state, |a, _| noise[a]);
         respond(&mut state);
-        state.particles.acceleration
+        state.columns.acceleration
     };
     let (table, listed) = (accelerations(""), accelerations("bond_table = false"));
     let worst = largest(table.iter().zip(&listed).flat_map(|(a, b)| [a[0] - b[0], a[1] - b[1]]));

@@ -1,5 +1,6 @@
 //! What the discrete operators must do exactly.
 
+mod declarations;
 pub mod lagrangian;
 mod shape_block;
 mod shape_functions;

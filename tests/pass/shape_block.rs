@@ -36,7 +36,7 @@ pub fn irregular<S: Space<Real = f64>>(options: &str) -> Cpu<S> {
     let mut random = Random(2019);
     let mut state = parse(&text(S::DIMENSION, options)).state::<S>(false);
     for a in 0..state.params.count as usize {
-        let p = &mut state.particles;
+        let p = &mut state.columns;
         p.reference_volume[a] *= 1.0 + 0.2 * random.signed();
         for k in 0..S::DIMENSION {
             p.displacement[a][k] = 0.15 * random.signed();

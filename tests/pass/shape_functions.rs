@@ -57,14 +57,14 @@ fn derivatives_are_differences<S: Space<Real = f64>>() {
     let step = 1e-5;
     let mut worst = 0.0_f64;
     for a in [0, 3, count / 2, count - 1] {
-        let volume = std::mem::take(&mut cpu.state.particles.reference_volume[a]);
+        let volume = std::mem::take(&mut cpu.state.columns.reference_volume[a]);
         let (shape, here) = values(&mut cpu, a);
         for k in 0..S::DIMENSION {
-            cpu.state.particles.displacement[a][k] += step;
+            cpu.state.columns.displacement[a][k] += step;
             let (after, ahead) = values(&mut cpu, a);
-            cpu.state.particles.displacement[a][k] -= 2.0 * step;
+            cpu.state.columns.displacement[a][k] -= 2.0 * step;
             let (before, behind) = values(&mut cpu, a);
-            cpu.state.particles.displacement[a][k] += step;
+            cpu.state.columns.displacement[a][k] += step;
             // The last of a row has a correction so steep that only digits count.
             let mut check = |seen: f64, high: f64, low: f64| {
                 worst = worst.max((seen - (high - low) / (2.0 * step)).abs() / seen.abs().max(1.0));
@@ -75,7 +75,7 @@ fn derivatives_are_differences<S: Space<Real = f64>>() {
             let others = here.iter().zip(&ahead).zip(&behind).take(here.len() - 1);
             others.for_each(|(((_, gradient), high), low)| check(gradient[k], high.0, low.0));
         }
-        cpu.state.particles.reference_volume[a] = volume;
+        cpu.state.columns.reference_volume[a] = volume;
     }
     println!("{}D: derivatives off by {worst:.1e}", S::DIMENSION);
     assert!(worst < 1e-7, "{worst:e}");
@@ -92,8 +92,8 @@ fn energy<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> f64 {
     Pass::DeformByShape.run(&mut cpu.state, Stage { reference: true, ..Stage::default() });
     let state = &cpu.state;
     let one = |a: usize| {
-        let h = state.particles.displacement_gradient[a];
-        state.particles.reference_volume[a] * stored_energy::<S>(state.body(a), h, S::Sym::default())
+        let h = state.columns.displacement_gradient[a];
+        state.columns.reference_volume[a] * stored_energy::<S>(state.body(a), h, S::Sym::default())
     };
     (0..state.params.count as usize).map(one).sum()
 }
@@ -105,12 +105,12 @@ fn force_less_difference<S: Space<Real = f64>>(options: &str) -> f64 {
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for a in [0, 1, count / 3, count / 2, count - 1] {
         for k in 0..S::DIMENSION {
-            let force = cpu.state.particles.acceleration[a][k] * cpu.state.mass(a);
-            cpu.state.particles.displacement[a][k] += step;
+            let force = cpu.state.columns.acceleration[a][k] * cpu.state.mass(a);
+            cpu.state.columns.displacement[a][k] += step;
             let high = energy(&mut cpu);
-            cpu.state.particles.displacement[a][k] -= 2.0 * step;
+            cpu.state.columns.displacement[a][k] -= 2.0 * step;
             let low = energy(&mut cpu);
-            cpu.state.particles.displacement[a][k] += step;
+            cpu.state.columns.displacement[a][k] += step;
             worst = worst.max((force + (high - low) / (2.0 * step)).abs());
             largest = largest.max(force.abs());
         }
@@ -132,7 +132,7 @@ fn force_in_the_reference_configuration_is_minus_the_derivative_of_the_energy() 
 fn imbalance<S: Space<Real = f64>>(options: &str) -> f64 {
     let mut cpu = irregular::<S>(options);
     Pass::EvolveDeformation.run(&mut cpu.state, Stage::default());
-    let (state, p) = (&cpu.state, &cpu.state.particles);
+    let (state, p) = (&cpu.state, &cpu.state.columns);
     let (mut sum, mut size) = (0.0, 0.0);
     for a in 0..state.params.count as usize {
         let of_force = state.mass(a) * S::inner(p.acceleration[a], p.velocity[a]);
@@ -163,16 +163,16 @@ fn a_lonely_row_of_particles_is_corrected_as_far_as_it_goes() {
     let mut cpu = irregular::<Plane<f64>>("");
     // All but three in a row leave.
     for a in 3..cpu.state.params.count as usize {
-        cpu.state.particles.displacement[a].0[1] = 100.0 + 10.0 * a as f64;
+        cpu.state.columns.displacement[a].0[1] = 100.0 + 10.0 * a as f64;
     }
     for a in 0..3 {
-        let x = cpu.state.particles.reference_position[a].0;
-        cpu.state.particles.displacement[a].0 = [0.9 * a as f64 - x[0], -x[1]];
+        let x = cpu.state.columns.reference_position[a].0;
+        cpu.state.columns.displacement[a].0 = [0.9 * a as f64 - x[0], -x[1]];
     }
     cpu.begin_segment(0.0, 1.0, 1, true).unwrap();
-    let finite = |a: usize| cpu.state.particles.acceleration[a].0.iter().all(|x| x.is_finite());
+    let finite = |a: usize| cpu.state.columns.acceleration[a].0.iter().all(|x| x.is_finite());
     assert!((0..cpu.state.params.count as usize).all(finite));
-    assert!(cpu.state.particles.shape_slope.iter().all(|beta| beta.0 == [0.0; 2]));
+    assert!(cpu.state.columns.shape_slope.iter().all(|beta| beta.0 == [0.0; 2]));
 }
 
 #[test]

@@ -17,12 +17,12 @@ fn gradient_error<S: Space<Real = f64>>(mut state: State<S>, set_up: impl FnOnce
     }
     state = set_up(state);
     for a in 0..state.params.count as usize {
-        state.particles.velocity[a] = S::mat_vec(expected, state.position(a));
+        state.columns.velocity[a] = S::mat_vec(expected, state.position(a));
     }
     Pass::StrainRate.run(&mut state, Stage::default());
     let components = || (0..S::DIMENSION).flat_map(|i| (0..S::DIMENSION).map(move |j| (i, j)));
     let error = |a: usize| {
-        let found = state.particles.velocity_gradient[a];
+        let found = state.columns.velocity_gradient[a];
         components().map(|(i, j)| (found[S::mat_index(i, j)] - expected[S::mat_index(i, j)]).abs()).fold(0.0, f64::max)
     };
     (0..state.params.count as usize).map(error).fold(0.0, f64::max)

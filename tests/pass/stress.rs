@@ -146,7 +146,7 @@ fn element<S: Space>(hardening: Hardening, k: f64) -> State<S> {
         hardening.words
     );
     let mut state = parse(&text).state::<S>(false);
-    state.particles.equivalent_plastic_strain.fill(S::Real::of(k));
+    state.columns.equivalent_plastic_strain.fill(S::Real::of(k));
     state.clock.running = 1;
     state
 }
@@ -160,7 +160,7 @@ fn advance<S: Space>(state: &mut State<S>, l: &M, steps: u32) {
         }
     }
     state.clock.step = S::Real::of(1.0 / f64::from(steps));
-    state.particles.velocity_gradient.fill(gradient);
+    state.columns.velocity_gradient.fill(gradient);
     Pass::Stress.run(state, Stage::default());
 }
 
@@ -175,7 +175,7 @@ fn walk<S: Space>(state: &mut State<S>, path: impl Fn(f64) -> M, steps: u32) {
 }
 
 fn deviator<S: Space>(state: &State<S>) -> M {
-    let m = S::mat_of_sym(state.particles.deviatoric_stress[1]);
+    let m = S::mat_of_sym(state.columns.deviatoric_stress[1]);
     let within = |i: usize, j: usize| if i.max(j) < S::DIMENSION { m[S::mat_index(i, j)].f64() } else { 0.0 };
     let mut s: M = std::array::from_fn(|i| std::array::from_fn(|j| within(i, j)));
     if S::DIMENSION == 2 {
@@ -200,9 +200,9 @@ fn tension_follows_the_closed_form() {
         let (axial, side) = (isochoric + volume / 3.0, -0.5 * isochoric + volume / 3.0);
         let mut state = element::<Solid<f64>>(hardening, 0.0);
         walk(&mut state, |_| [[axial, 0.0, 0.0], [0.0, side, 0.0], [0.0, 0.0, side]], 20_000);
-        let (s, e) = (deviator(&state), state.particles.volumetric_strain[1]);
+        let (s, e) = (deviator(&state), state.columns.volumetric_strain[1]);
         let mean = BULK * e / (1.0 + e);
-        let errors = [(s[0][0] + mean) / q - 1.0, (s[1][1] + mean) / q, state.particles.equivalent_plastic_strain[1] / k - 1.0];
+        let errors = [(s[0][0] + mean) / q - 1.0, (s[1][1] + mean) / q, state.columns.equivalent_plastic_strain[1] / k - 1.0];
         println!("{}: axial and side stress and k off by {errors:?}", hardening.words);
         assert!(errors.iter().all(|error| error.abs() < 1e-6), "{}: {errors:?}", hardening.words);
     }
@@ -239,7 +239,7 @@ fn shear_and_torsion_follow_the_rate_equations() {
             let mut state = element::<Solid<f64>>(hardening, WORKED);
             walk(&mut state, path, steps);
             let grown = yield_stress(k, hardening) / YIELD;
-            let errors = [apart(&deviator(&state), &s) / grown, (state.particles.equivalent_plastic_strain[1] / k - 1.0).abs()];
+            let errors = [apart(&deviator(&state), &s) / grown, (state.columns.equivalent_plastic_strain[1] / k - 1.0).abs()];
             println!("{name}, {}: stress off by {:.1e}, k = {k:.3} by {:.1e}", hardening.words, errors[0], errors[1]);
             assert!(errors.iter().all(|error| *error < 1e-6), "{name}, {}: {errors:?}", hardening.words);
         }
@@ -253,9 +253,9 @@ fn a_rotation_of_the_whole_path_turns_the_stress() {
         let mut turned = still.clone();
         walk(&mut still, twist, 20_000);
         walk(&mut turned, turning, 20_000);
-        let (q, k) = (turn(1.0), still.particles.equivalent_plastic_strain[1]);
+        let (q, k) = (turn(1.0), still.columns.equivalent_plastic_strain[1]);
         let wanted = times(&times(&q, &deviator(&still)), &transposed(&q));
-        let errors = [apart(&deviator(&turned), &wanted), (turned.particles.equivalent_plastic_strain[1] / k - 1.0).abs()];
+        let errors = [apart(&deviator(&turned), &wanted), (turned.columns.equivalent_plastic_strain[1] / k - 1.0).abs()];
         // The turn in the middle of a step is good to the second order of the step.
         assert!(errors.iter().all(|error| *error < 1e-7) && k > 0.1, "{}: {errors:?}", hardening.words);
     }
@@ -269,7 +269,7 @@ fn the_plane_counts_the_stress_across() {
         walk(&mut plane, path, 300);
         walk(&mut solid, path, 300);
         assert!(apart(&deviator(&plane), &deviator(&solid)) < 1e-12);
-        let (a, b) = (plane.particles.equivalent_plastic_strain[1], solid.particles.equivalent_plastic_strain[1]);
+        let (a, b) = (plane.columns.equivalent_plastic_strain[1], solid.columns.equivalent_plastic_strain[1]);
         assert!((a - b).abs() < 1e-14 && a > 0.1, "{a} {b}");
     }
 }
@@ -286,8 +286,8 @@ fn work_is_stored_or_plastic() {
             work += 0.5 * inner(&plus(&before, 1.0, &deviator(&state)), &l) / f64::from(steps);
         }
         let s = deviator(&state);
-        let stored = elastic_energy(&state.bodies[0], state.particles.volumetric_strain[1], inner(&s, &s));
-        let heat = 2.0 * state.particles.dissipated_energy[1];
+        let stored = elastic_energy(&state.bodies[0], state.columns.volumetric_strain[1], inner(&s, &s));
+        let heat = 2.0 * state.columns.dissipated_energy[1];
         let error = ((stored + heat) / work - 1.0).abs();
         println!("{}: stored energy and heat off the work by {error:.1e}", hardening.words);
         assert!(error < 1e-6 && heat > 20.0 * stored && stored > 0.0, "{}: {error:e}", hardening.words);
@@ -300,7 +300,7 @@ fn single_precision_follows_double() {
         let (mut wide, mut narrow) = (element::<Solid<f64>>(hardening, 0.0), element::<Solid<f32>>(hardening, 0.0));
         walk(&mut wide, turning, 2000);
         walk(&mut narrow, turning, 2000);
-        let (a, b) = (wide.particles.equivalent_plastic_strain[1], f64::from(narrow.particles.equivalent_plastic_strain[1]));
+        let (a, b) = (wide.columns.equivalent_plastic_strain[1], f64::from(narrow.columns.equivalent_plastic_strain[1]));
         let errors = [apart(&deviator(&wide), &deviator(&narrow)), (b / a - 1.0).abs()];
         println!("{}: f32 stress off by {:.1e}, k by {:.1e}", hardening.words, errors[0], errors[1]);
         assert!(errors.iter().all(|error| *error < 2e-5), "{}: {errors:?}", hardening.words);

@@ -1,6 +1,6 @@
 //! What a Total Lagrangian scene is made of, and what does not go with it.
 
-use lithosph::particles::Field;
+use lithosph::fields::Field;
 use lithosph::pass::Pass;
 use lithosph::scene::Scene;
 use lithosph::step;

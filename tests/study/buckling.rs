@@ -39,13 +39,13 @@ fn straight(mut scene: Scene) -> Scene {
 /// sum V [lambda (tr E)^2/2 + mu E:E + (alpha E/2) sum V_b w |H X_ab - u_ab|^2], w = -W'(R)/R.
 fn energy(state: &State<S>) -> f64 {
     let particle = |a: usize| {
-        let (body, h) = (state.body(a), state.particles.displacement_gradient[a]);
+        let (body, h) = (state.body(a), state.columns.displacement_gradient[a]);
         let strain = S::sym_part(h) + S::sym_part(S::mat_mat(S::transpose(h), h)) * 0.5;
         let (trace, square) = (S::sym_trace(strain), strain[0].powi(2) + strain[1].powi(2) + 2.0 * strain[2].powi(2));
         let lambda = body.bulk_modulus - 2.0 / 3.0 * body.shear_modulus;
         let elastic = 0.5 * lambda * trace * trace + body.shear_modulus * square;
         let stray = |bond: Bond<S>| {
-            let moved = state.particles.displacement[bond.b] - state.particles.displacement[a];
+            let moved = state.columns.displacement[bond.b] - state.columns.displacement[a];
             let stray = S::mat_vec(h, bond.row.x * -1.0) - moved;
             -bond.row.weight * S::inner(stray, stray)
         };
@@ -54,9 +54,9 @@ fn energy(state: &State<S>) -> f64 {
             part.enumerate().map(|(lane, _)| <Listed as Source<S>>::bond(&block, lane)).collect::<Vec<_>>()
         };
         let hourglass: f64 = <Listed as Source<S>>::parts(state, a).flat_map(bonds).map(stray).sum();
-        state.particles.reference_volume[a] * (elastic + 0.5 * state.params.hourglass * body.youngs_modulus * hourglass)
+        state.columns.reference_volume[a] * (elastic + 0.5 * state.params.hourglass * body.youngs_modulus * hourglass)
     };
-    (0..state.particles.displacement.len()).map(particle).sum()
+    (0..state.columns.displacement.len()).map(particle).sum()
 }
 
 #[test]

@@ -12,8 +12,8 @@ mod tables;
 mod tests;
 
 use super::device::{DeviceInfo, TIMESTAMPS};
-use super::{Backend, Columns};
-use crate::particles::Field;
+use super::{Backend, Fetched};
+use crate::fields::Field;
 use crate::pass::Call;
 use crate::rows::{Clock, Params};
 use crate::state::State;
@@ -264,7 +264,7 @@ impl Backend for Gpu {
         Ok(clock)
     }
 
-    fn fetch(&mut self, fields: &[Field]) -> Result<Columns, String> {
+    fn fetch(&mut self, fields: &[Field]) -> Result<Fetched, String> {
         self.refresh(fields)?;
         let tables = fields.iter().map(|&field| self.tables.field(field)).collect::<Result<Vec<_>, _>>()?;
         let wanted: Vec<_> = tables.iter().map(|table| (&table.buffer, table.bytes)).collect();

@@ -3,10 +3,9 @@
 use super::connection::Connection;
 use super::tables::{Part, Tables};
 use crate::backend::shader::{self, Access, Binding, Interface, Shader};
+use crate::fields::{REDUCTION_BLOCK, SCAN_BLOCK, Set};
 use crate::method::Method;
-use crate::particles::Set;
 use crate::pass::{Call, Domain, Entry, Pass};
-use crate::rows::{REDUCTION_BLOCK, SCAN_BLOCK};
 use std::collections::BTreeMap;
 use wgpu::{Buffer, CommandEncoder, ComputePassDescriptor, ComputePipeline};
 
@@ -173,7 +172,7 @@ fn groups(domain: Domain, tables: &Tables, part: &Part, workgroup: u32) -> u32 {
         Domain::Listed => part.count.div_ceil(workgroup),
         Domain::Cells => params.cell_total.div_ceil(workgroup),
         Domain::Facets => params.facet_count.div_ceil(workgroup),
-        Domain::FacetBlocks => params.facet_blocks() as u32,
+        Domain::FacetBlocks => params.counts().facet_blocks() as u32,
         Domain::ScanBlocks => params.cell_total.div_ceil(SCAN_BLOCK as u32),
         Domain::ReductionBlocks => params.count.div_ceil(REDUCTION_BLOCK as u32),
         Domain::One => 1,

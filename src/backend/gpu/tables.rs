@@ -2,10 +2,8 @@
 
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
-use crate::particles::{Field, Type};
-use crate::rows::{
-    Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params, REDUCTION_BLOCK, SCAN_BLOCK,
-};
+use crate::fields::{Field, Type};
+use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
 use crate::state::State;
 use crate::step;
 use crate::tensor::Space;
@@ -76,14 +74,14 @@ impl Tables {
         longest_part: Option<u32>,
     ) -> Result<Self, String> {
         let mut fields = step::fields(&state.method);
-        fields.extend(state.particles.present());
+        fields.extend(state.columns.present());
         fields.sort_unstable();
         fields.dedup();
         let params = state.params;
         let contents = contents(state, &fields);
         let limit = info.max_binding_bytes.min(info.max_buffer_bytes) & !15;
         let split = split(params.count, params.list_capacity, limit, longest_part);
-        let list = 4 * u64::from(params.count) * u64::from(params.list_capacity);
+        let list = params.counts().bytes(&[Field::Neighbors], S::DIMENSION, 4);
         let scratch = contents.iter().filter(|c| c.carried).map(|c| c.bytes).max().unwrap_or(0);
         let total = list + scratch + contents.iter().map(|c| c.bytes).sum::<u64>();
         check_sizes(info, limit, &contents, params.count, total)?;
@@ -101,13 +99,13 @@ impl Tables {
         let parts = parts.collect::<Result<_, _>>()?;
         let tables = Self { dimension: S::DIMENSION, params, fields, parts, scratch, named };
         tables.write_params(link, &params)?;
-        if state.neighbors.iter().any(|&entry| entry != 0) {
-            tables.write_neighbors(link, &state.neighbors)?;
+        if state.columns.neighbors.iter().any(|&entry| entry != 0) {
+            tables.write_neighbors(link, &state.columns.neighbors)?;
         }
         Ok(tables)
     }
 
-    /// A table by its name in the shaders; not `params` and `neighbors`, which come in parts.
+    /// A table by its name in the shaders; not `params` and what comes [in parts](Field::in_parts).
     pub fn get(&self, name: &str) -> Result<&Table, String> {
         self.named.get(name).ok_or_else(|| format!("this run has no table {name}"))
     }
@@ -121,9 +119,17 @@ impl Tables {
         self.fields.iter().copied().filter(|field| field.carried())
     }
 
-    /// 32-bit words that one particle takes in a field.
+    /// 32-bit words that one row takes in a field.
     pub fn words(&self, field: Field) -> u32 {
         field.kind().words_in(self.dimension) as u32
+    }
+
+    /// Bytes of the columns alone.
+    #[cfg(test)]
+    pub fn column_bytes(&self) -> u64 {
+        let entries = self.params.counts().of(Field::Neighbors.set()) as u64;
+        let whole = self.fields.iter().filter(|field| !field.in_parts());
+        4 * entries + whole.map(|field| self.named[field.name()].bytes).sum::<u64>()
     }
 
     pub fn bytes(&self) -> u64 {
@@ -202,38 +208,28 @@ struct Content<'a> {
     carried: bool,
 }
 
+/// All but the list of neighbours, which comes in parts.
 fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> Vec<Content<'a>> {
-    let params = &state.params;
-    let (counts, count, cells) = (params.counts(), params.count as usize, params.cell_total as usize);
-    let table = |name, host: &'a [u8], least: usize| Content { name, bytes: host.len().max(least) as u64, host, carried: false };
+    let table = |name, host: &'a [u8]| Content { name, bytes: host.len() as u64, host, carried: false };
     let mut list = vec![
-        table("clock", bytes_of(&state.clock), 0),
-        table("bodies", cast_slice(&state.bodies), 0),
-        table("contact_pairs", cast_slice(&state.contact_pairs), 0),
-        table("contacts", cast_slice(&state.contacts), 0),
-        table("facet_pairs", cast_slice(&state.facet_pairs), 0),
-        table("obstacles", cast_slice(&state.obstacles), 0),
-        table("movers", cast_slice(&state.movers), 0),
-        table("obstacle_pairs", cast_slice(&state.obstacle_pairs), 0),
-        table("facet_contacts", cast_slice(&state.facet_contacts), 0),
-        table("block_load", cast_slice(&state.block_load), 0),
-        table("zone_forces", cast_slice(&state.zone_forces), 0),
-        table("kept_neighbors", cast_slice(&state.kept_neighbors), 0),
-        table("kept_gradients", cast_slice(&state.kept_gradients), 0),
-        table("coupling", cast_slice(&state.coupling), 0),
-        table("constraints", cast_slice(&state.constraints), 0),
-        table("course", cast_slice(&state.course), 0),
-        table("cell_count", cast_slice(&state.cell_count), 4 * cells),
-        table("cell_start", cast_slice(&state.cell_start), 4 * (cells + 1)),
-        table("cell_block", cast_slice(&state.cell_block), 4 * cells.div_ceil(SCAN_BLOCK)),
-        table("cell_particles", cast_slice(&state.cell_particles), 4 * count),
-        table("balance", bytes_of(&state.balance), 0),
-        table("block_residual", cast_slice(&state.block_residual), 0),
-        table("block_bound", cast_slice(&state.block_bound), 16 * count.div_ceil(REDUCTION_BLOCK)),
+        table("clock", bytes_of(&state.clock)),
+        table("balance", bytes_of(&state.balance)),
+        table("bodies", cast_slice(&state.bodies)),
+        table("coupling", cast_slice(&state.coupling)),
+        table("contact_pairs", cast_slice(&state.contact_pairs)),
+        table("facet_pairs", cast_slice(&state.facet_pairs)),
+        table("obstacles", cast_slice(&state.obstacles)),
+        table("movers", cast_slice(&state.movers)),
+        table("obstacle_pairs", cast_slice(&state.obstacle_pairs)),
+        table("constraints", cast_slice(&state.constraints)),
+        table("course", cast_slice(&state.course)),
     ];
-    list.extend(fields.iter().map(|&field| Content {
+    let counts = state.params.counts();
+    list.extend(fields.iter().filter(|field| !field.in_parts()).map(|&field| Content {
+        name: field.name(),
+        bytes: counts.bytes(&[field], S::DIMENSION, 4),
+        host: state.columns.bytes(field),
         carried: field.carried(),
-        ..table(field.name(), state.particles.bytes(field), 4 * counts.of(field.set()) * field.kind().words_in(S::DIMENSION))
     }));
     list
 }

@@ -4,25 +4,16 @@
 use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
+use crate::fields::Columns;
 use crate::method::Method;
-use crate::particles::{Counts, Particles};
 use crate::pass::{Pass, Stage};
-use crate::rows::{Body, REDUCTION_BLOCK, SCAN_BLOCK};
+use crate::rows::Body;
 use crate::smoothing::Smoothing;
 use crate::tensor::{Plane, Tuple};
 
 /// A square lattice of spacing 1 with a velocity that varies, in an order that is not that of the cells.
 fn state(side: usize) -> State<Plane<f32>> {
     let (method, count, cells) = (Method::default(), side * side, side / 2 + 5);
-    let mut particles = Particles::allocate(Counts { particles: count, ..Counts::default() }, &step::fields(&method));
-    for i in 0..count {
-        let place = (i * 7919) % count;
-        let (x, y) = ((place % side) as f32, (place / side) as f32);
-        particles.number[i] = i as u32;
-        particles.reference_position[i] = Tuple([x, y]);
-        particles.reference_volume[i] = 1.0;
-        particles.velocity[i] = Tuple([1e-2 * (0.3 * y).sin(), 1e-2 * (0.4 * x).cos()]);
-    }
     let params = Params {
         count: count as u32,
         list_capacity: 40,
@@ -42,6 +33,15 @@ fn state(side: usize) -> State<Plane<f32>> {
         cfl: 0.3,
         ..Params::default()
     };
+    let mut columns = Columns::allocate(params.counts(), &step::fields(&method));
+    for i in 0..count {
+        let place = (i * 7919) % count;
+        let (x, y) = ((place % side) as f32, (place / side) as f32);
+        columns.number[i] = i as u32;
+        columns.reference_position[i] = Tuple([x, y]);
+        columns.reference_volume[i] = 1.0;
+        columns.velocity[i] = Tuple([1e-2 * (0.3 * y).sin(), 1e-2 * (0.4 * x).cos()]);
+    }
     let body =
         Body { density: 1.0, bulk_modulus: 1.0, shear_modulus: 0.5, sound_speed: 1.2, smoothing_length: 1.2, ..Body::default() };
     State {
@@ -52,27 +52,14 @@ fn state(side: usize) -> State<Plane<f32>> {
         coupling: vec![1.0],
         constraints: Vec::new(),
         course: Vec::new(),
-        particles,
-        cell_count: Vec::new(),
-        cell_start: Vec::new(),
-        cell_block: Vec::new(),
-        cell_particles: Vec::new(),
-        neighbors: Vec::new(),
+        columns,
         bond_table: Default::default(),
-        contacts: Vec::new(),
-        facet_contacts: Vec::new(),
-        block_load: Vec::new(),
         facet_pairs: Vec::new(),
         obstacles: Vec::new(),
         movers: Vec::new(),
         obstacle_pairs: Vec::new(),
-        zone_forces: Vec::new(),
-        kept_neighbors: Vec::new(),
-        kept_gradients: Vec::new(),
         contact_pairs: Vec::new(),
-        block_bound: Vec::new(),
         balance: Default::default(),
-        block_residual: Vec::new(),
     }
 }
 
@@ -155,7 +142,7 @@ fn dispatches_beyond_the_limit_reach_every_particle_with_the_stage_s_constants()
     let Some(mut gpu) = toy_gpu(&state, None) else { return };
     gpu.run_calls(&[at(Pass::Drift, 0.5), at(Pass::Drift, 0.25)]).unwrap();
     let seen = gpu.fetch(&[Field::Displacement, Field::Number]).unwrap();
-    let velocity: &[f32] = bytemuck::cast_slice(state.particles.bytes(Field::Velocity));
+    let velocity: &[f32] = bytemuck::cast_slice(state.columns.bytes(Field::Velocity));
     assert_eq!(seen[&Field::Displacement].len(), velocity.len());
     for (u, &v) in seen[&Field::Displacement].iter().zip(velocity) {
         assert!((u - 0.75 * f64::from(v)).abs() < 1e-8);
@@ -186,7 +173,7 @@ fn a_split_neighbour_list_reads_as_a_whole_one() {
 fn every_carried_field_is_reordered() {
     let state = state(20);
     let Some(mut gpu) = toy_gpu(&state, None) else { return };
-    let mut wanted = state.particles.clone();
+    let mut wanted = state.columns.clone();
     wanted.reorder(&(0..400).rev().collect::<Vec<u32>>());
     gpu.run_calls(&[at(Pass::Reorder, 0.0)]).unwrap();
     let saved = gpu.save().unwrap();
@@ -194,9 +181,22 @@ fn every_carried_field_is_reordered() {
     for (field, bytes) in &saved {
         assert_eq!(bytes, wanted.bytes(*field), "{}", field.name());
     }
-    gpu.load(&BTreeMap::from([(Field::Velocity, state.particles.bytes(Field::Velocity).to_vec())])).unwrap();
-    assert_eq!(gpu.read_table("velocity").unwrap(), state.particles.bytes(Field::Velocity));
+    gpu.load(&BTreeMap::from([(Field::Velocity, state.columns.bytes(Field::Velocity).to_vec())])).unwrap();
+    assert_eq!(gpu.read_table("velocity").unwrap(), state.columns.bytes(Field::Velocity));
     assert!(gpu.write_table("velocity", &[0; 4]).is_err() && gpu.read_table("nothing").is_err());
+}
+
+#[test]
+fn host_and_device_take_the_bytes_of_the_list() {
+    let mut state = state(20);
+    state.method.internal_energy = true;
+    state.columns = Columns::allocate(state.params.counts(), &step::fields(&state.method));
+    let Some(gpu) = toy_gpu(&state, Some(128)) else { return };
+    let listed = state.params.counts().bytes(&step::fields(&state.method), 2, 4);
+    assert_eq!((gpu.tables.column_bytes(), state.bytes()), (listed, listed));
+    let neighbors: u64 = gpu.tables.parts.iter().map(|part| part.neighbors.size()).sum();
+    assert_eq!(neighbors, (state.columns.bytes(Field::Neighbors).len() as u64).next_multiple_of(16));
+    assert!(gpu.bytes() >= listed);
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn a_table_that_does_not_fit_is_an_error_that_names_it() {
 }
 
 /// As the run loop does it: two segments, then the fields.
-fn two_segments(backend: &mut dyn Backend) -> (Columns, Clock<f64>) {
+fn two_segments(backend: &mut dyn Backend) -> (Fetched, Clock<f64>) {
     let mut clock = Clock::default();
     for (start, first) in [(0.0, true), (8.0, false)] {
         backend.begin_segment(start, 8.0, u32::MAX, first).unwrap();
@@ -268,19 +268,12 @@ fn two_segments(backend: &mut dyn Backend) -> (Columns, Clock<f64>) {
 #[test]
 fn a_run_agrees_with_the_twins_and_does_not_depend_on_the_split() {
     let Some(adapter) = choose(Want::Gpu, None).ok().flatten() else { return };
-    let mut host = state(24);
-    let (count, cells) = (host.params.count as usize, host.params.cell_total as usize);
+    let host = state(24);
     let (gpu, whole_clock) = two_segments(&mut Gpu::new(&adapter, &host).unwrap());
     let options = Options { longest_part: Some(100), patch: None };
     let (split, split_clock) = two_segments(&mut Gpu::with_options(&adapter, &host, options).unwrap());
     assert_eq!((&gpu, whole_clock), (&split, split_clock));
 
-    host.cell_count = vec![0; cells];
-    host.cell_start = vec![0; cells + 1];
-    host.cell_block = vec![0; cells.div_ceil(SCAN_BLOCK)];
-    host.cell_particles = vec![0; count];
-    host.neighbors = vec![0; count * host.params.list_capacity as usize];
-    host.block_bound = vec![[0.0; 4]; count.div_ceil(REDUCTION_BLOCK)];
     let (cpu, cpu_clock) = two_segments(&mut Cpu::new(host));
     assert_eq!(gpu[&Field::Number], cpu[&Field::Number]);
     let counts = |clock: Clock<f64>| (clock.steps_done, clock.lists_built, clock.fault, clock.start);

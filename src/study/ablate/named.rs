@@ -1,10 +1,10 @@
 //! Physics and numerics that a scene names, piece by piece.
 
 use super::piece::{Piece, Sort, without, without_observables};
+use crate::fields::{Field, Set};
 use crate::material::Law;
 use crate::method::{Formulation, Gradient, Integrator};
 use crate::observable::{KINDS, fields_of_path};
-use crate::particles::{Field, Set};
 use crate::scene::Scene;
 use crate::scene::file::{ContactTable, File, Observe};
 use crate::scene::material::MaterialTable;

@@ -3,8 +3,8 @@
 use super::named::{stores, without_fields};
 use super::piece::{Piece, Sort, without, without_observables};
 use super::plane;
+use crate::fields::{Field, Set};
 use crate::output::csv::shortest;
-use crate::particles::{Field, Set};
 use crate::scene::Scene;
 use crate::scene::file::{BodyTable, File};
 use crate::scene::packing::Packing;

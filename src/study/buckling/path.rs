@@ -36,7 +36,7 @@ impl<S: Space<Real = f64>> Path<S> {
         state.clock = Clock { running: 1, rebuild: 1, ..Clock::default() };
         run(&mut state, &step::prepare(&scene.method));
         let mut order: Vec<usize> = (0..scene.particles.len()).collect();
-        let place = |a: &usize| state.particles.reference_position[*a][axis];
+        let place = |a: &usize| state.columns.reference_position[*a][axis];
         order.sort_by(|a, b| place(a).total_cmp(&place(b)));
         let free = |particle: usize, axis: usize| !held(&state, particle, axis);
         let unknowns: Vec<Unknown> = order
@@ -59,7 +59,7 @@ impl<S: Space<Real = f64>> Path<S> {
 
     pub fn add(&mut self, increments: &[f64], factor: f64) {
         for (unknown, increment) in self.unknowns.iter().zip(increments) {
-            self.state.particles.displacement[unknown.particle][unknown.axis] += factor * increment;
+            self.state.columns.displacement[unknown.particle][unknown.axis] += factor * increment;
         }
     }
 
@@ -75,11 +75,11 @@ impl<S: Space<Real = f64>> Path<S> {
     fn hold(&mut self, part: f64) {
         let state = &mut self.state;
         (state.clock.start, state.clock.duration) = (0.0, part * self.duration);
-        for particle in 0..state.particles.displacement.len() {
+        for particle in 0..state.columns.displacement.len() {
             for axis in (0..S::DIMENSION).filter(|&axis| held(state, particle, axis)).collect::<Vec<_>>() {
-                let constraint = state.constraints[state.particles.constraint[particle] as usize - 1];
+                let constraint = state.constraints[state.columns.constraint[particle] as usize - 1];
                 let time = state.course_integral(&constraint, 0.0, state.clock.duration);
-                state.particles.displacement[particle][axis] = [constraint.x, constraint.y, constraint.z][axis] * time;
+                state.columns.displacement[particle][axis] = [constraint.x, constraint.y, constraint.z][axis] * time;
             }
         }
     }
@@ -114,7 +114,7 @@ impl<S: Space<Real = f64>> Path<S> {
 
 /// Whether a boundary condition prescribes a component.
 fn held<S: Space>(state: &State<S>, particle: usize, axis: usize) -> bool {
-    let number = state.particles.constraint.get(particle).copied().unwrap_or(0);
+    let number = state.columns.constraint.get(particle).copied().unwrap_or(0);
     number != 0 && state.constraints[number as usize - 1].prescribed >> axis & 1 == 1
 }
 

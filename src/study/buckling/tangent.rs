@@ -22,7 +22,7 @@ pub struct Pattern {
 
 impl Pattern {
     pub fn new<S: Space>(state: &State<S>, unknowns: &[Unknown]) -> Self {
-        let mut of_particle: Vec<Vec<u32>> = vec![Vec::new(); state.particles.displacement.len()];
+        let mut of_particle: Vec<Vec<u32>> = vec![Vec::new(); state.columns.displacement.len()];
         for (k, unknown) in unknowns.iter().enumerate() {
             of_particle[unknown.particle].push(k as u32);
         }
@@ -39,15 +39,15 @@ impl Pattern {
     pub fn tangent<S: Space<Real = f64>>(&self, path: &mut Path<S>) -> Band {
         let mut band = Band::new(self.reached.len(), self.width);
         let step = difference(path.state.bodies.iter().map(|b| b.smoothing_length).fold(f64::INFINITY, f64::min));
-        let kept = path.state.particles.displacement.clone();
+        let kept = path.state.columns.displacement.clone();
         for colour in &self.colours {
             let side = |path: &mut Path<S>, sign: f64| {
                 for &k in colour {
                     let unknown = path.unknowns[k as usize];
-                    path.state.particles.displacement[unknown.particle][unknown.axis] += sign * step;
+                    path.state.columns.displacement[unknown.particle][unknown.axis] += sign * step;
                 }
                 let forces = path.forces();
-                path.state.particles.displacement.clone_from(&kept);
+                path.state.columns.displacement.clone_from(&kept);
                 forces
             };
             let (ahead, behind) = (side(path, 1.0), side(path, -1.0));
@@ -66,7 +66,7 @@ impl Pattern {
     pub fn asymmetry<S: Space<Real = f64>>(path: &mut Path<S>) -> f64 {
         let count = path.unknowns.len();
         let step = difference(path.state.bodies[0].smoothing_length);
-        let kept = path.state.particles.displacement.clone();
+        let kept = path.state.columns.displacement.clone();
         let mut columns = Vec::new();
         for k in 0..count {
             let mut unit = vec![0.0; count];
@@ -75,7 +75,7 @@ impl Pattern {
             let ahead = path.forces();
             path.add(&unit, -2.0);
             let behind = path.forces();
-            path.state.particles.displacement.clone_from(&kept);
+            path.state.columns.displacement.clone_from(&kept);
             columns.push(behind.iter().zip(&ahead).map(|(b, a)| (b - a) / (2.0 * step)).collect::<Vec<f64>>());
         }
         let pairs = || (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));

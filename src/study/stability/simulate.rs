@@ -7,8 +7,8 @@
 use super::halo;
 use super::setting::Setting;
 use crate::backend::{Choice, open};
+use crate::fields::{Field, Type};
 use crate::method::Integrator;
-use crate::particles::{Field, Type};
 use crate::rows::Fault;
 use crate::scene::Scene;
 use crate::scene::file::{File, Motion, Time, Wave};

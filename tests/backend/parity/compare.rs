@@ -3,8 +3,8 @@
 //! Integers are equal, and so is what is only moved.
 
 use super::tables::{field, padding};
+use lithosph::fields::{Field, Set, Type};
 use lithosph::pair::separation;
-use lithosph::particles::{Field, Set, Type};
 use lithosph::pass::Pass;
 use lithosph::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
 use lithosph::smoothing::Smoothing;
@@ -70,7 +70,7 @@ pub fn compare<W: Space, N: Space>(pass: Pass, name: &str, seen: &Seen<W, N>) ->
         let scale = scale_of(&truth.0);
         rows.push(reals(truth, &twin.1, &gpu.1, scale));
     }
-    let free = |a: usize| seen.before.particles.constraint.get(a).is_none_or(|&held| held == 0);
+    let free = |a: usize| seen.before.columns.constraint.get(a).is_none_or(|&held| held == 0);
     if let (Some(sum), true) = (carried, pass != Pass::Reorder) {
         let whole = |values: (Vec<f64>, Vec<f64>)| -> Vec<f64> {
             let width = values.0.len() / seen.before.params.count as usize;
@@ -110,12 +110,12 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
             Some(vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.fault])
         }
         "balance" => Some(vec![state.balance.downhill]),
-        "cell_count" => Some(state.cell_count.clone()),
-        "cell_start" => Some(state.cell_start.clone()),
-        "cell_block" => Some(state.cell_block.clone()),
+        "cell_count" => Some(state.columns.cell_count.clone()),
+        "cell_start" => Some(state.columns.cell_start.clone()),
+        "cell_block" => Some(state.columns.cell_block.clone()),
         "cell_particles" => {
-            let mut list = state.cell_particles.clone();
-            for cell in state.cell_start.windows(2).filter(|_| sorted) {
+            let mut list = state.columns.cell_particles.clone();
+            for cell in state.columns.cell_start.windows(2).filter(|_| sorted) {
                 list[cell[0] as usize..cell[1] as usize].sort_unstable();
             }
             Some(list)
@@ -127,19 +127,19 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
         "contacts" => {
             let count = state.params.count as usize;
             let entry =
-                |k: usize, a: usize| (k < state.particles.contact_count[a] as usize).then(|| state.contacts[k * count + a]);
-            let rows = state.contacts.len() / count;
+                |k: usize, a: usize| (k < state.columns.contact_count[a] as usize).then(|| state.columns.contacts[k * count + a]);
+            let rows = state.columns.contacts.len() / count;
             Some((0..rows).flat_map(|k| (0..count).filter_map(move |a| entry(k, a))).collect())
         }
         "facet_contacts" => {
-            let (count, counts) = (state.params.facet_count as usize, &state.particles.facet_contact_count);
-            let entry = |k: usize, e: usize| (k < counts[e] as usize).then(|| state.facet_contacts[k * count + e]);
+            let (count, counts) = (state.params.facet_count as usize, &state.columns.facet_contact_count);
+            let entry = |k: usize, e: usize| (k < counts[e] as usize).then(|| state.columns.facet_contacts[k * count + e]);
             let rows = state.params.facet_capacity as usize;
             Some((0..rows).flat_map(|k| (0..count).filter_map(move |e| entry(k, e))).collect())
         }
-        "kept_neighbors" => Some(kept(state).map(|place| state.kept_neighbors[place]).collect()),
+        "kept_neighbors" => Some(kept(state).map(|place| state.columns.kept_neighbors[place]).collect()),
         _ => match field(name) {
-            Some(field) if field.kind() == Type::Integer => Some(bytemuck::cast_slice(state.particles.bytes(field)).to_vec()),
+            Some(field) if field.kind() == Type::Integer => Some(bytemuck::cast_slice(state.columns.bytes(field)).to_vec()),
             _ => None,
         },
     }
@@ -148,7 +148,7 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
 /// Places of the neighbours kept, each particle's in order.
 fn kept<S: Space>(state: &State<S>) -> impl Iterator<Item = usize> {
     let count = state.params.count as usize;
-    let counts = state.particles.kept_count.iter().enumerate();
+    let counts = state.columns.kept_count.iter().enumerate();
     counts.flat_map(move |(a, &kept)| (0..kept as usize).map(move |k| k * count + a))
 }
 
@@ -181,30 +181,31 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
             parts.map(|(label, value)| one(label, vec![value.f64()])).to_vec()
         }
         "block_residual" => {
-            let column = |k: usize| state.block_residual.iter().map(|measure| measure[k].f64()).collect();
+            let column = |k: usize| state.columns.block_residual.iter().map(|measure| measure[k].f64()).collect();
             (0..8).map(|k| one(&format!("block_residual.{k}"), column(k))).collect()
         }
         "block_load" => {
-            vec![one(name, state.block_load.iter().flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
+            vec![one(name, state.columns.block_load.iter().flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
         }
         "block_bound" => {
-            let column = |k: usize| state.block_bound.iter().map(|bound| bound[k].f64()).collect();
+            let column = |k: usize| state.columns.block_bound.iter().map(|bound| bound[k].f64()).collect();
             (0..4).map(|k| one(&format!("block_bound.{}", ["x", "y", "z", "w"][k]), column(k))).collect()
         }
         "zone_forces" => {
             let count = state.params.count as usize;
-            let of = |a: usize| (0..state.particles.contact_count[a] as usize).map(move |k| state.zone_forces[k * count + a]);
-            let owners = (0..count).filter(|&a| state.particles.surface[a] != 0).flat_map(of);
+            let of =
+                |a: usize| (0..state.columns.contact_count[a] as usize).map(move |k| state.columns.zone_forces[k * count + a]);
+            let owners = (0..count).filter(|&a| state.columns.surface[a] != 0).flat_map(of);
             vec![one(name, owners.flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
         }
         "kept_gradients" => {
-            let rows = kept(state).map(|place| state.kept_gradients[place]);
+            let rows = kept(state).map(|place| state.columns.kept_gradients[place]);
             vec![one(name, rows.flat_map(|v| (0..S::DIMENSION).map(move |k| v[k].f64())).collect())]
         }
         _ => match field(name) {
             Some(field) if field.kind() != Type::Integer => {
                 let width = field.kind().words::<S>();
-                let all: &[S::Real] = bytemuck::cast_slice(state.particles.bytes(field));
+                let all: &[S::Real] = bytemuck::cast_slice(state.columns.bytes(field));
                 let kept = all.iter().enumerate().filter(|(k, _)| !padding::<S>(field.kind(), k % width));
                 let values: Vec<f64> = kept.map(|(_, x)| x.f64()).collect();
                 assert!(values.len() >= 1000 || field.set() != Set::Particle, "{name} has too few numbers");
@@ -219,7 +220,7 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
 /// or at the end of a kernel that ends with a jump.
 pub fn assert_rounding_decides_nothing<S: Space<Real = f64>>(pass: Pass, state: &State<S>) {
     let p = &state.params;
-    let extent = state.particles.reference_position.iter().map(|&x| S::inner(x, x).sqrt()).fold(0.0, f64::max);
+    let extent = state.columns.reference_position.iter().map(|&x| S::inner(x, x).sqrt()).fold(0.0, f64::max);
     let rounding = 2.0 * f64::from(f32::EPSILON) * extent;
     match pass {
         Pass::BinCells => {

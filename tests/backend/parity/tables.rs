@@ -4,75 +4,23 @@ use super::cases::{CELL, Case, EDGE};
 use crate::common::Random;
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use lithosph::backend::gpu::Gpu;
-use lithosph::particles::{Field, Particles, Type};
-use lithosph::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params, SCAN_BLOCK};
+use lithosph::fields::{Columns, Field, Type};
+use lithosph::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
 use lithosph::state::State;
 use lithosph::tensor::{Linear, Real, Space};
-
-/// Tables, beside the fields, that passes write.
-pub const TABLES: [&str; 13] = [
-    "clock",
-    "cell_count",
-    "cell_start",
-    "cell_block",
-    "cell_particles",
-    "neighbors",
-    "contacts",
-    "facet_contacts",
-    "block_load",
-    "zone_forces",
-    "kept_neighbors",
-    "kept_gradients",
-    "block_bound",
-];
 
 pub fn field(name: &str) -> Option<Field> {
     Field::ALL.iter().copied().find(|field| field.name() == name)
 }
 
-/// A table as bytes; not the clock.
-fn bytes<'a, S: Space>(state: &'a State<S>, name: &str) -> &'a [u8] {
-    match name {
-        "cell_count" => cast_slice(&state.cell_count),
-        "cell_start" => cast_slice(&state.cell_start),
-        "cell_block" => cast_slice(&state.cell_block),
-        "cell_particles" => cast_slice(&state.cell_particles),
-        "neighbors" => cast_slice(&state.neighbors),
-        "contacts" => cast_slice(&state.contacts),
-        "facet_contacts" => cast_slice(&state.facet_contacts),
-        "block_load" => cast_slice(&state.block_load),
-        "zone_forces" => cast_slice(&state.zone_forces),
-        "kept_neighbors" => cast_slice(&state.kept_neighbors),
-        "kept_gradients" => cast_slice(&state.kept_gradients),
-        "block_bound" => cast_slice(&state.block_bound),
-        "block_residual" => cast_slice(&state.block_residual),
-        _ => state.particles.bytes(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
-    }
+fn known(name: &str) -> Field {
+    field(name).unwrap_or_else(|| panic!("no table is named {name}"))
 }
 
-fn bytes_mut<'a, S: Space>(state: &'a mut State<S>, name: &str) -> &'a mut [u8] {
-    match name {
-        "cell_count" => cast_slice_mut(&mut state.cell_count),
-        "cell_start" => cast_slice_mut(&mut state.cell_start),
-        "cell_block" => cast_slice_mut(&mut state.cell_block),
-        "cell_particles" => cast_slice_mut(&mut state.cell_particles),
-        "neighbors" => cast_slice_mut(&mut state.neighbors),
-        "contacts" => cast_slice_mut(&mut state.contacts),
-        "facet_contacts" => cast_slice_mut(&mut state.facet_contacts),
-        "block_load" => cast_slice_mut(&mut state.block_load),
-        "zone_forces" => cast_slice_mut(&mut state.zone_forces),
-        "kept_neighbors" => cast_slice_mut(&mut state.kept_neighbors),
-        "kept_gradients" => cast_slice_mut(&mut state.kept_gradients),
-        "block_bound" => cast_slice_mut(&mut state.block_bound),
-        "block_residual" => cast_slice_mut(&mut state.block_residual),
-        _ => state.particles.bytes_mut(field(name).unwrap_or_else(|| panic!("no table is named {name}"))),
-    }
-}
-
-/// Every table that a pass may write, the fields of this state among them.
+/// Every table that a pass may write: clock, balance, and the fields of this state.
 pub fn names<S: Space>(state: &State<S>) -> Vec<&'static str> {
-    let sought: &[&str] = if state.method.quasi_static.is_some() { &["balance", "block_residual"] } else { &[] };
-    TABLES.into_iter().chain(sought.iter().copied()).chain(state.particles.present().into_iter().map(Field::name)).collect()
+    let sought = state.method.quasi_static.is_some().then_some("balance");
+    ["clock"].into_iter().chain(sought).chain(state.columns.present().into_iter().map(Field::name)).collect()
 }
 
 pub fn upload<S: Space<Real = f32>>(gpu: &mut Gpu, state: &State<S>) {
@@ -80,7 +28,7 @@ pub fn upload<S: Space<Real = f32>>(gpu: &mut Gpu, state: &State<S>) {
         match name {
             "clock" => gpu.write_table(name, bytes_of(&state.clock)).unwrap(),
             "balance" => gpu.write_table(name, bytes_of(&state.balance)).unwrap(),
-            _ => gpu.write_table(name, bytes(state, name)).unwrap(),
+            _ => gpu.write_table(name, state.columns.bytes(known(name))).unwrap(),
         }
     }
 }
@@ -91,7 +39,7 @@ pub fn download<S: Space<Real = f32>>(gpu: &Gpu, state: &mut State<S>, names: &[
         match *name {
             "clock" => state.clock = pod_read_unaligned(&bytes),
             "balance" => state.balance = pod_read_unaligned(&bytes),
-            _ => bytes_mut(state, name).copy_from_slice(&bytes),
+            _ => state.columns.bytes_mut(known(name)).copy_from_slice(&bytes),
         }
     }
 }
@@ -101,7 +49,7 @@ pub fn different<S: Space<Real = f32>>(a: &State<S>, b: &State<S>) -> Vec<&'stat
     let differs = |name: &&str| match *name {
         "clock" => bytes_of(&a.clock) != bytes_of(&b.clock),
         "balance" => a.balance != b.balance,
-        name => bytes(a, name) != bytes(b, name),
+        name => a.columns.bytes(known(name)) != b.columns.bytes(known(name)),
     };
     names(b).into_iter().filter(differs).collect()
 }
@@ -127,18 +75,11 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         friction: real(p.friction),
     };
     let mover = |m: &Mover<A::Real>| Mover { condition: m.condition, inverse_mass: real(m.inverse_mass) };
-    let vec = |v: &A::Vec| {
-        let mut new = B::Vec::default();
-        (0..A::DIMENSION).for_each(|k| new[k] = real(v[k]));
-        new
-    };
     State {
         facet_pairs: from.facet_pairs.iter().map(facet_pair).collect(),
         obstacles: from.obstacles.iter().map(obstacle).collect(),
         movers: from.movers.iter().map(mover).collect(),
         obstacle_pairs: from.obstacle_pairs.iter().map(facet_pair).collect(),
-        facet_contacts: from.facet_contacts.clone(),
-        block_load: from.block_load.iter().map(vec).collect(),
         method: from.method.clone(),
         params: params(&from.params, real),
         clock: clock(&from.clock, real),
@@ -146,16 +87,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         coupling: from.coupling.iter().map(|&x| real(x)).collect(),
         constraints: from.constraints.iter().map(constraint).collect(),
         course: from.course.iter().map(|point| point.map(real)).collect(),
-        particles: particles(from),
-        cell_count: from.cell_count.clone(),
-        cell_start: from.cell_start.clone(),
-        cell_block: from.cell_block.clone(),
-        cell_particles: from.cell_particles.clone(),
-        neighbors: from.neighbors.clone(),
-        contacts: from.contacts.clone(),
-        zone_forces: from.zone_forces.iter().map(|&v| vector::<A, B>(v)).collect(),
-        kept_neighbors: from.kept_neighbors.clone(),
-        kept_gradients: from.kept_gradients.iter().map(|&v| vector::<A, B>(v)).collect(),
+        columns: columns(from),
         contact_pairs: from
             .contact_pairs
             .iter()
@@ -169,22 +101,14 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
             })
             .collect(),
         bond_table: Default::default(),
-        block_bound: from.block_bound.iter().map(|bound| bound.map(real)).collect(),
         balance: balance(&from.balance, real),
-        block_residual: from.block_residual.iter().map(|measure| measure.map(real)).collect(),
     }
 }
 
-fn vector<A: Space, B: Space>(from: A::Vec) -> B::Vec {
-    let mut to = B::Vec::default();
-    (0..A::DIMENSION).for_each(|k| to[k] = B::Real::of(from[k].f64()));
-    to
-}
-
-fn particles<A: Space, B: Space>(from: &State<A>) -> Particles<B> {
-    let mut to = Particles::<B>::allocate(from.params.counts(), &from.particles.present());
-    for field in from.particles.present() {
-        let (old, new) = (from.particles.bytes(field), to.bytes_mut(field));
+fn columns<A: Space, B: Space>(from: &State<A>) -> Columns<B> {
+    let mut to = Columns::<B>::allocate(from.params.counts(), &from.columns.present());
+    for field in from.columns.present() {
+        let (old, new) = (from.columns.bytes(field), to.bytes_mut(field));
         if field.kind() == Type::Integer {
             new.copy_from_slice(old);
             continue;
@@ -271,19 +195,13 @@ pub fn random_state<S: Space<Real = f32>>(case: &Case, seed: u64, fraction: f32)
     let mut state = case.scene().state::<S>(case.compensated);
     let mut random = Random(seed);
     align_cells::<S>(&mut state, case.units[0] as f32);
-    for field in state.particles.present() {
+    for field in state.columns.present() {
         fill::<S>(&mut state, field, case, &mut random);
     }
     // A particle on a mirror plane coincides with its image.
-    state.particles.displacement[0] = S::Vec::default();
+    state.columns.displacement[0] = S::Vec::default();
     state.clock = clock_of(&state, fraction);
     state.balance = balance_of(state.clock.step);
-    state.block_residual.iter_mut().flatten().for_each(|number| *number = random.unit() as f32);
-    // The counts are zero between lists; all else is made anew before it is read.
-    for table in [&mut state.cell_start, &mut state.cell_block, &mut state.cell_particles, &mut state.neighbors] {
-        table.iter_mut().for_each(|entry| *entry = random.word() as u32);
-    }
-    state.block_bound.iter_mut().flatten().for_each(|bound| *bound = random.unit() as f32);
     state
 }
 
@@ -304,10 +222,10 @@ fn align_cells<S: Space<Real = f32>>(state: &mut State<S>, spacing: f32) {
         }
     }
     p.cell_total = p.cells_x * p.cells_y * p.cells_z;
-    let cells = p.cell_total as usize;
-    state.cell_count = vec![0; cells];
-    state.cell_start = vec![0; cells + 1];
-    state.cell_block = vec![0; cells.div_ceil(SCAN_BLOCK)];
+    let counts = state.params.counts();
+    let fresh = Columns::<S>::allocate(counts, &[Field::CellCount, Field::CellStart, Field::CellBlock]);
+    (state.columns.cell_count, state.columns.cell_start, state.columns.cell_block) =
+        (fresh.cell_count, fresh.cell_start, fresh.cell_block);
 }
 
 fn clock_of<S: Space<Real = f32>>(state: &State<S>, fraction: f32) -> Clock<f32> {
@@ -344,12 +262,14 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
     let kind = field.kind();
     if kind == Type::Integer {
         if matches!(field, Surface | FacetObstacle | FacetPressed) {
-            let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
+            let column: &mut [u32] = cast_slice_mut(state.columns.bytes_mut(field));
             let words = if field == FacetPressed { 2 } else { 3 };
             column.iter_mut().for_each(|entry| *entry = random.word() as u32 % words);
         }
-        if matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount) {
-            let column: &mut [u32] = cast_slice_mut(state.particles.bytes_mut(field));
+        // The counts of cells are zero between lists.
+        let made_anew = matches!(field, Cell | NeighborCount | ContactCount | KeptCount | FacetContactCount);
+        if made_anew || matches!(field, CellStart | CellBlock | CellParticles | Neighbors) {
+            let column: &mut [u32] = cast_slice_mut(state.columns.bytes_mut(field));
             column.iter_mut().for_each(|entry| *entry = random.word() as u32);
         }
         return;
@@ -399,12 +319,18 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             ShapeStress => bulk * strain(random),
             DisplacementGradientStart => 0.1 * random.signed(),
             DisplacementGradientRate | DisplacementGradientSum => 0.02 * rate * random.signed(),
+            BlockBound | BlockResidual => random.unit(),
+            // Only what is listed has one.
+            KeptGradients | ZoneForces | BlockLoad => f64::from(old),
+            CellCount | CellStart | CellBlock | CellParticles | Neighbors | KeptNeighbors | Contacts | FacetContacts => {
+                unreachable!()
+            }
             Surface | FirstFacet | Facets | FacetOwner | FacetContactCount | FacetPressed | FacetObstacle => unreachable!(),
             Number | Body | Field::Constraint | Cell | NeighborCount | ContactCount | KeptCount => unreachable!(),
         }
     };
     let width = kind.words::<S>();
-    let column: &mut [f32] = cast_slice_mut(state.particles.bytes_mut(field));
+    let column: &mut [f32] = cast_slice_mut(state.columns.bytes_mut(field));
     assert_eq!(column.len(), count * width);
     for (k, slot) in column.iter_mut().enumerate() {
         if !padding::<S>(kind, k % width) {

@@ -5,8 +5,8 @@ use super::tables::{convert, different, download, names, upload};
 use bytemuck::bytes_of;
 use lithosph::backend::gpu::{Gpu, Options, Patch};
 use lithosph::backend::shader::{self, Access, compose};
+use lithosph::fields::Field;
 use lithosph::method::Method;
-use lithosph::particles::Field;
 use lithosph::pass::{Call, Pass, Stage};
 use lithosph::rows::Clock;
 use lithosph::state::State;
@@ -30,7 +30,7 @@ fn writable<S: Space>(pass: Pass, state: &State<S>) -> BTreeSet<&'static str> {
         let bindings = shader::reflect(&text, entry.name).unwrap().bindings;
         for binding in bindings.iter().filter(|binding| binding.kind == Access::ReadWrite) {
             if binding.name == "destination" {
-                list.extend(state.particles.present().iter().filter(|field| field.carried()).map(|field| field.name()));
+                list.extend(state.columns.present().iter().filter(|field| field.carried()).map(|field| field.name()));
                 continue;
             }
             let name = known.iter().find(|name| **name == binding.name);
@@ -97,9 +97,9 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
         let mut calm = self.before.clone();
         calm.clock = Clock { running: 1, rebuild: 1, ..calm.clock };
         // Slow, and where the list was built.
-        calm.particles.velocity.iter_mut().for_each(|v| *v = *v * 0.1);
-        if !calm.particles.listed_displacement.is_empty() {
-            calm.particles.listed_displacement = calm.particles.displacement.clone();
+        calm.columns.velocity.iter_mut().for_each(|v| *v = *v * 0.1);
+        if !calm.columns.listed_displacement.is_empty() {
+            calm.columns.listed_displacement = calm.columns.displacement.clone();
         }
         self.run_end(calm.clone());
         assert_eq!(self.truth.clock.rebuild, 0);
@@ -107,7 +107,7 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
 
         let mut moved = calm.clone();
         // A Total Lagrangian list holds for ever.
-        if let Some(listed) = moved.particles.listed_displacement.get_mut(500) {
+        if let Some(listed) = moved.columns.listed_displacement.get_mut(500) {
             listed[0] += 2.0 * moved.params.slack;
             self.run_end(moved);
             assert_eq!(self.truth.clock.rebuild, 1);
@@ -116,7 +116,7 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
         // In one block, acceleration bounds the step.
         let mut pulled = calm.clone();
         let hard = 10.0 * pulled.bodies[0].sound_speed.powi(2) / pulled.bodies[0].smoothing_length;
-        pulled.particles.acceleration[300..310].iter_mut().for_each(|a| a[0] += hard);
+        pulled.columns.acceleration[300..310].iter_mut().for_each(|a| a[0] += hard);
         self.run_end(pulled);
         let fixed = calm.params.fixed_step > 0.0;
         assert!(fixed || self.truth.clock.step < 0.9 * f64::from(next));
@@ -149,13 +149,13 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
             self.truth.clock
         };
         let mut uphill = usual.clone();
-        for (v, a) in uphill.particles.velocity.iter_mut().zip(&uphill.particles.acceleration) {
+        for (v, a) in uphill.columns.velocity.iter_mut().zip(&uphill.columns.acceleration) {
             *v = *a * -usual.clock.step;
         }
         let clock = end(uphill);
         assert_eq!(clock.running, 1, "{clock:?}");
         let mut downhill = usual.clone();
-        for (v, a) in downhill.particles.velocity.iter_mut().zip(&downhill.particles.acceleration) {
+        for (v, a) in downhill.columns.velocity.iter_mut().zip(&downhill.columns.acceleration) {
             *v = *a * usual.clock.step;
         }
         assert_eq!(end(downhill).running, 1);
