@@ -1,4 +1,4 @@
-// Where a strength is asked what it bears, and what it bears. Twin: Point and Flow in src/material/mod.rs
+// Where a strength is asked what it bears, and what it bears. Twin: Point and Flow in src/material/point.rs
 #import params
 
 struct Point {

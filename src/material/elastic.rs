@@ -1,6 +1,6 @@
 //! A strength that does not give way. Twin: shaders/material/elastic.wgsl
 
-use super::{Flow, Point};
+use super::point::{Flow, Point};
 use crate::rows::Body;
 use crate::tensor::Real;
 

@@ -1,7 +1,7 @@
 //! Strength of metals that harden: s0 + B k^n, Ludwik 1909, k the equivalent plastic strain; perfect plasticity where B is
 //! 0, linear hardening where n is 1. Twin: shaders/material/j2.wgsl
 
-use super::{Flow, Point};
+use super::point::{Flow, Point};
 use crate::rows::Body;
 use crate::tensor::Real;
 

@@ -6,7 +6,8 @@
 use super::hartmann_neff::{volumetric_energy, volumetric_stress};
 use super::inelastic::{elastic_strain, isochoric_energy, relaxed};
 use super::strain::volume_change;
-use super::{Memory, inelastic};
+use super::inelastic;
+use super::point::Memory;
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
 

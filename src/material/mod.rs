@@ -9,10 +9,12 @@
 
 pub mod inelastic;
 pub mod law;
+mod point;
 pub mod strain;
 pub mod yielding;
 
 pub use law::{Declaration, NUMBERS, Number, Range, Reads, Role};
+pub use point::{Flow, Memory, Point};
 
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
@@ -151,40 +153,6 @@ impl<R: Real> Body<R> {
             padding: real(self.padding),
             numbers: self.numbers.map(real),
         }
-    }
-}
-
-/// Where a strength is asked what it bears.
-#[derive(Debug, Clone, Copy)]
-pub struct Point<R> {
-    /// Equivalent plastic strain.
-    pub strain: R,
-    /// Its rate.
-    pub rate: R,
-    pub temperature: R,
-}
-
-/// What it bears: a Mises stress, and its derivatives by the plastic strain and its rate.
-#[derive(Debug, Clone, Copy)]
-pub struct Flow<R> {
-    pub stress: R,
-    pub by_strain: R,
-    pub by_rate: R,
-}
-
-/// What a particle of finite strain remembers.
-#[derive(Debug, Clone, Copy)]
-pub struct Memory<S: Space> {
-    /// C_i - 1, the inelastic strain.
-    pub strain: S::Sym,
-    /// Equivalent plastic strain.
-    pub plastic: S::Real,
-    pub temperature: S::Real,
-}
-
-impl<S: Space> Default for Memory<S> {
-    fn default() -> Self {
-        Self { strain: S::Sym::default(), plastic: S::Real::default(), temperature: S::Real::default() }
     }
 }
 

@@ -7,8 +7,9 @@
 //! part of C_p + w C', and the weight w is found from q. Nothing here turns with the body, and det C_p stays 1.
 
 use super::inelastic::{Mixed, over, relaxed, whole};
+use super::point::{Flow, Memory, Point};
 use super::strain::{cube_root_change, lacking, unimodular_strain};
-use super::{Flow, Memory, Point, flow, rise};
+use super::{flow, rise};
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
 

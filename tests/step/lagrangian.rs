@@ -118,7 +118,7 @@ fn what_does_not_go_together_is_refused_in_one_sentence() {
         (&["material.rubber.yield_stress=0.1"], "only the law `j2` takes"),
         (&["material.rubber.hardening={ linear = 0.1 }"], "only the law `j2` takes"),
         (&[J2[0], "material.rubber.yield_stress=0"], "needs a positive yield_stress"),
-        (&[J2[0], J2[1], "material.rubber.hardening={ linear = -0.1 }"], "would soften"),
+        (&[J2[0], J2[1], "material.rubber.hardening={ linear = -0.1 }"], "needs a hardening that is not negative"),
         (
             &[J2[0], J2[1], "material.rubber.hardening={ power = { coefficient = 0.1, exponent = 2 } }"],
             "exponent above 0 and up to 1",
