@@ -115,7 +115,7 @@ pub struct Lanes<S: Space> {
 impl<S: Space> Lanes<S> {
     #[inline(always)]
     fn new(state: &State<S>, a: usize, entries: &[u32]) -> Self {
-        let h = state.body(a).smoothing_length;
+        let h = state.smoothing_length(a);
         // A lane that is left over has no weight.
         let (mut x, mut weight) = ([[h; LANES]; 3], [S::Real::default(); LANES]);
         let mut own = [0; LANES];
@@ -278,7 +278,7 @@ impl<S: Space> BondTable<S> {
 
 /// Place of a bond in quanta, with the neighbour's volume and the body's smoothing length; and its row.
 fn distinct<S: Space>(state: &State<S>, a: usize, entry: u32) -> (([i64; 3], u64, u64), Row<S>) {
-    let h = state.body(a).smoothing_length;
+    let h = state.smoothing_length(a);
     let quantum = QUANTUM * h.f64();
     let mut x = reference_separation(state, a, entry);
     let mut steps = [0; 3];

@@ -119,7 +119,7 @@ pub struct Block<S: Space> {
 #[inline(always)]
 pub fn blocks<S: Space>(state: &State<S>, a: usize) -> impl Iterator<Item = Block<S>> {
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
-    let h_a = state.body(a).smoothing_length;
+    let h_a = state.smoothing_length(a);
     let own = (S::Real::of(1.0) / h_a, kernel.gradient_factor(h_a));
     let mut entries = state.neighbors_of(a);
     std::iter::from_fn(move || if entries.is_empty() { None } else { Some(next_block(state, a, &mut entries, kernel, h_a, own)) })
@@ -144,7 +144,7 @@ fn next_block<S: Space>(
         let apart = separation(state, a, candidate);
         let mut h_ab = h_a;
         if state.method.many_bodies {
-            h_ab = S::Real::of(0.5) * (h_a + state.body((candidate & NEIGHBOR_MASK) as usize).smoothing_length);
+            h_ab = S::Real::of(0.5) * (h_a + state.smoothing_length((candidate & NEIGHBOR_MASK) as usize));
         }
         (entry[count], x[count], h[count], square[count]) = (candidate, apart, h_ab, S::inner(apart, apart));
         count += usize::from(square[count] < S::Real::of(4.0) * h_ab * h_ab);

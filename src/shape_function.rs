@@ -55,9 +55,9 @@ pub fn nodes<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iter
     entries.map(move |entry| {
         let (b, image) = ((entry & NEIGHBOR_MASK) as usize, entry >> NEIGHBOR_BITS);
         let x = if reference { reference_separation(state, a, entry) } else { separation(state, a, entry) };
-        let mut h = state.body(a).smoothing_length;
+        let mut h = state.smoothing_length(a);
         if state.method.many_bodies {
-            h = S::Real::of(0.5) * (h + state.body(b).smoothing_length);
+            h = S::Real::of(0.5) * (h + state.smoothing_length(b));
         }
         let distance = S::inner(x, x).sqrt();
         let (weight, slope) = (kernel.weight(distance, h), kernel.gradient(distance, h));
@@ -89,7 +89,7 @@ pub fn correct<S: Space>(state: &State<S>, a: usize, reference: bool) -> Shape<S
         of_kernel.first += node.x * share;
         of_kernel.second += S::outer(node.x, node.x * share);
     }
-    let inverse = inverse_or_zero::<S>(of_kernel.second, state.body(a).smoothing_length);
+    let inverse = inverse_or_zero::<S>(of_kernel.second, state.smoothing_length(a));
     let slope = S::mat_vec(inverse, of_kernel.first) * -one;
     let (mut first, mut second) = (S::Vec::default(), S::Mat::default());
     for node in nodes(state, a, reference) {

@@ -56,6 +56,11 @@ impl<S: Space> State<S> {
     pub fn body(&self, a: usize) -> &Body<S::Real> {
         &self.bodies[self.body_index(a)]
     }
+    /// h of a particle: a number of its body.
+    #[inline(always)]
+    pub fn smoothing_length(&self, a: usize) -> S::Real {
+        self.body(a).smoothing_length
+    }
     /// Reference volume times reference density: constant.
     #[inline(always)]
     pub fn mass(&self, a: usize) -> S::Real {

@@ -7,3 +7,8 @@
 fn body_of(a: u32) -> Body {
     return bodies[body_index(a)];
 }
+
+// h of a particle: a number of its body. Twin: State::smoothing_length in src/state.rs
+fn smoothing_length(a: u32) -> real {
+    return body_of(a).smoothing_length;
+}

@@ -5,7 +5,7 @@
 
 // sum V_b (u_b - u_a) (x) grad_a W_ab
 fn sum_bonds(a: u32, row: u32) -> Mat {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let count = neighbor_count[a];

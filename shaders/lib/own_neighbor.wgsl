@@ -19,6 +19,6 @@ fn own_neighbor(a: u32, b: u32) -> OwnNeighbor {
     let moved_a = select(displacement[a], Vec(), stage_reference);
     let moved_b = select(displacement[b], Vec(), stage_reference);
     let x = separation(reference_position[a], moved_a, b, moved_b);
-    let reach = 2.0 * body_of(a).smoothing_length;
+    let reach = 2.0 * smoothing_length(a);
     return OwnNeighbor(x, body_index(a) == body_index(b) && inner(x, x) < reach * reach);
 }

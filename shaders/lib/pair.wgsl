@@ -33,14 +33,14 @@ struct Pair {
 }
 
 fn center_of(a: u32) -> Center {
-    return Center(body_index(a), body_of(a).smoothing_length, reference_position[a], displacement[a]);
+    return Center(body_index(a), smoothing_length(a), reference_position[a], displacement[a]);
 }
 
 fn pair_of(center: Center, entry: u32) -> Pair {
     let b = entry & NEIGHBOR_MASK;
     let x = separation(center.reference, center.displacement, entry, displacement[b]);
 #if many_bodies
-    let h = 0.5 * (center.h + body_of(b).smoothing_length);
+    let h = 0.5 * (center.h + smoothing_length(b));
 #else
     let h = center.h;
 #endif

@@ -43,7 +43,7 @@ fn shift_of(b: u32) -> Vec {
 }
 
 fn center_of(a: u32, row: u32) -> Center {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     return Center(a, row, body_index(a), neighbor_count[a], h, reference_position[a], shift_of(a));
 }
 
@@ -56,7 +56,7 @@ fn node_at(center: Center, k: u32) -> Node {
     let b = entry & NEIGHBOR_MASK;
     let x = separation(center.reference, center.displacement, entry, shift_of(b));
 #if many_bodies
-    let h = 0.5 * (center.h + body_of(b).smoothing_length);
+    let h = 0.5 * (center.h + smoothing_length(b));
 #else
     let h = center.h;
 #endif

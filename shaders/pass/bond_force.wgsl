@@ -45,7 +45,7 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     var own = Vec();
     var others = Vec();
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, own_body.smoothing_length, neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
         let weight = bond.gradient * reference_volume[bond.b];
         let x = bond.x * weight;
         own += x;

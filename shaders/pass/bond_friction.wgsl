@@ -21,7 +21,7 @@ fn of_particle(a: u32, row: u32) {
     var sum = Vec();
     var power: real = 0.0;
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, own_body.smoothing_length, neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
         // x_a - x_b
         let x = bond.x - displacement_difference(displacement_a, bond);
         let v_ba = velocity_difference(velocity_a, bond);
@@ -36,7 +36,7 @@ fn of_particle(a: u32, row: u32) {
 }
 
 fn friction_of(own_body: Body, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
-    let h = own_body.smoothing_length;
+    let h = smoothing_length(a);
     let square = inner(x, x);
     let mu = min(-h * inner(v_ba, x) / (square + params.softening * h * h), 0.0);
     let pi = (params.beta * mu - params.alpha * own_body.sound_speed) * mu;

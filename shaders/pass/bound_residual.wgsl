@@ -73,7 +73,7 @@ fn measure_of(a: u32) -> Measure {
         fault = real(NOT_FINITE);
     }
     let sum = vec4<real>(inner(pull, velocity[a]), square, motion, 0.0) * weight;
-    var rate = own.sound_speed / own.smoothing_length;
+    var rate = own.sound_speed / smoothing_length(a);
 #if facets
     rate = sqrt(rate * rate + params.contact_rate);
 #endif
@@ -86,7 +86,7 @@ fn force_scale(a: u32, h: Mat) -> real {
     let product = mat_of_sym(sym_part(mat_mat(transpose_mat(h), h)));
     let strain = mat_of_sym(sym_part(h)) + product * 0.5;
     let size = sqrt(trace(mat_mat(strain, strain)));
-    return own.youngs_modulus * reference_volume[a] / own.smoothing_length * max(size, 1e-6);
+    return own.youngs_modulus * reference_volume[a] / smoothing_length(a) * max(size, 1e-6);
 }
 
 @compute @workgroup_size(256)

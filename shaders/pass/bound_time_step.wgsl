@@ -60,7 +60,7 @@ fn blocks(invocation: Invocation) {
 // Rate, squared displacement since the list was built, squared speed, fault of one particle.
 fn bound_of(a: u32) -> vec4<real> {
     let own = body_of(a);
-    let h = own.smoothing_length;
+    let h = smoothing_length(a);
 #if finite_strain
     let compression: real = 0.0;
 #else

@@ -11,7 +11,7 @@
 const SMALLEST_PIVOT: real = 1e-3;
 
 fn of_particle(a: u32, row: u32) {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     var moment = moment_of(a, row, h);
     if invert(&moment) {
         linear_coefficient[a] = sym_of_terms(&moment, 1.0 / (h * h));

@@ -7,7 +7,7 @@
 @group(0) @binding(_) var<storage, read_write> reference_correction: array<Sym>;
 
 fn of_particle(a: u32, row: u32) {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     let center = reference_position[a];
     let count = neighbor_count[a];
     var moment = Mat();

@@ -67,7 +67,7 @@ fn of_particle(a: u32, row: u32) {
 #if quadratic_gradient
 // sum -V_b (W'/R) (u_b - u_a) (x) X_ab X_ab
 fn sum_products(a: u32, row: u32) -> Tri {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let count = neighbor_count[a];

@@ -18,7 +18,7 @@ fn of_particle(a: u32, row: u32) {
 }
 
 fn normal_of(a: u32, row: u32) -> Vec {
-    let h = body_of(a).smoothing_length;
+    let h = smoothing_length(a);
     let listed = neighbor_count[a];
     var sum = Vec();
     var total: real = 0.0;

@@ -27,7 +27,7 @@ fn of_particle(a: u32, row: u32) {
     let count = neighbor_count[a];
     var sum: real = 0.0;
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, own_body.smoothing_length, neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
         let stray = displacement_difference(displacement_a, bond) + mat_vec(gradient, bond.x);
         sum += inner(stray, stray) * (-bond.gradient * reference_volume[bond.b]);
     }

@@ -59,7 +59,7 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Vec, S::Real) 
 #[inline(always)]
 fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, v_ba: S::Vec) -> S::Vec {
     let (params, body) = (&state.params, state.body(a));
-    let h = body.smoothing_length;
+    let h = state.smoothing_length(a);
     // x_a - x_b
     let x = bond.row.x - displacement_difference::<S, B>(state, a, bond);
     let square = S::inner(x, x);

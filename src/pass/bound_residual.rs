@@ -68,7 +68,7 @@ fn measure<S: Space>(state: &State<S>, a: usize) -> Measure<S::Real> {
     } else {
         zero
     };
-    let mut rate = body.sound_speed / body.smoothing_length;
+    let mut rate = body.sound_speed / state.smoothing_length(a);
     if state.method.facets() {
         rate = (rate * rate + state.params.contact_rate).sqrt();
     }
@@ -82,7 +82,7 @@ pub fn force_scale<S: Space>(state: &State<S>, a: usize) -> S::Real {
     let strain = S::sym_part(h) + S::sym_part(S::mat_mat(S::transpose(h), h)) * S::Real::of(0.5);
     let strain = S::mat_of_sym(strain);
     let size = S::trace(S::mat_mat(strain, strain)).sqrt();
-    let stiffness = body.youngs_modulus * state.columns.reference_volume[a] / body.smoothing_length;
+    let stiffness = body.youngs_modulus * state.columns.reference_volume[a] / state.smoothing_length(a);
     stiffness * size.max(S::Real::of(1e-6))
 }
 

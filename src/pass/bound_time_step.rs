@@ -47,7 +47,7 @@ fn larger<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
 /// Rate, squared displacement since the list was built, squared speed, fault of one particle.
 fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let (columns, params, body) = (&state.columns, &state.params, state.body(a));
-    let (h, part) = (body.smoothing_length, S::Real::of(0.6));
+    let (h, part) = (state.smoothing_length(a), S::Real::of(0.6));
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
     let finite_strain = state.method.finite_strain();
     let compression = if finite_strain { zero } else { S::trace(columns.velocity_gradient[a]).abs() };

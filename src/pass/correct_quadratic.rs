@@ -40,7 +40,7 @@ fn terms<S: Space>() -> usize {
 
 /// Where too few neighbours define the quadratic part, the linear fit.
 fn coefficients_of<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Sym, S::Tri) {
-    let h = state.body(a).smoothing_length;
+    let h = state.smoothing_length(a);
     let inverse = inverted::<S>(moment::<S, B>(state, a, h));
     let Some(inverse) = inverse else { return (state.columns.reference_correction[a], S::Tri::default()) };
     let (one, n) = (S::Real::of(1.0), terms::<S>());

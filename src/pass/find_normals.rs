@@ -33,7 +33,7 @@ fn normal<S: Space>(state: &State<S>, a: usize, stage: Stage) -> S::Vec {
         return S::Vec::default();
     }
     let all = state.method.contact.zones.is_some_and(|zones| zones.normals == Normals::All);
-    let (kernel, h) = (Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION), state.body(a).smoothing_length);
+    let (kernel, h) = (Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION), state.smoothing_length(a));
     let (mut sum, mut total) = (S::Vec::default(), S::Real::of(0.0));
     for (_, x) in own_neighbors(state, a, stage.reference).filter(|&(b, _)| all || surface[b] == 0) {
         let distance = S::inner(x, x).sqrt();

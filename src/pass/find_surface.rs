@@ -39,7 +39,7 @@ fn kind_of<S: Space>(state: &State<S>, a: usize, stage: Stage) -> u32 {
 
 /// Neighbours of its body in the kernel's range, and x_a - x_b.
 pub(super) fn own_neighbors<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iterator<Item = (usize, S::Vec)> {
-    let reach = S::Real::of(2.0) * state.body(a).smoothing_length;
+    let reach = S::Real::of(2.0) * state.smoothing_length(a);
     state.neighbors_of(a).iter().filter_map(move |&b| {
         let x = if reference { reference_separation(state, a, b) } else { separation(state, a, b) };
         let own = state.body_index(a) == state.body_index(b as usize);

@@ -27,7 +27,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
     fill!(state, volumetric_strain, |a, slot| {
         let body = state.body(a);
-        let mut density = state.mass(a) * kernel.weight(S::Real::of(0.0), body.smoothing_length);
+        let mut density = state.mass(a) * kernel.weight(S::Real::of(0.0), state.smoothing_length(a));
         for block in blocks(state, a) {
             for (pair, weight) in block.pairs().zip(block.weights(&kernel)) {
                 let mass = state.mass(pair.b) * pair_coupling(state, a, pair.b);
