@@ -24,9 +24,9 @@ pub const PASS: Declaration = {
             when(|m| m.contact.colour_field, &[ColourExcess]),
         ],
         neighbours: &[
-            always(&[ReferencePosition, ReferenceVolume, Displacement]),
+            always(&[ReferencePosition, Displacement]),
             when(|m| m.many_bodies, &[Body]),
-            when(|m| m.contact.colour_field, &[ColourExcess]),
+            when(|m| m.contact.colour_field, &[ReferenceVolume, ColourExcess]),
         ],
         writes: &[always(&[Acceleration, ContactEnergy])],
     }

@@ -28,7 +28,7 @@ pub const PASS: Declaration = {
             when(|m| m.many_bodies, &[Body]),
         ],
         neighbours: &[
-            always(&[ReferencePosition, FirstFacet, Facets, FacetOwner, FacetReferencePosition, FacetDisplacement, FacetNormal]),
+            always(&[ReferencePosition, FirstFacet, Facets, FacetReferencePosition, FacetDisplacement, FacetNormal]),
             when(|m| m.many_bodies, &[Body]),
         ],
         writes: &[always(&[FacetContactCount, FacetContacts])],
