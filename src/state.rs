@@ -25,7 +25,7 @@ pub struct State<S: Space> {
     /// Contact of obstacle k and body b at `k * body_count + b`.
     pub obstacle_pairs: Vec<FacetPair<S::Real>>,
     pub constraints: Vec<Constraint<S::Real>>,
-    /// Time and factor.
+    /// Points of all time courses: time, and factor of the prescribed velocity or force.
     pub course: Vec<[S::Real; 2]>,
     pub particles: Particles<S>,
     /// Particles in each cell while they are being binned; zero otherwise.
@@ -43,13 +43,13 @@ pub struct State<S: Space> {
     pub facet_contacts: Vec<u32>,
     /// Force on obstacle k from block j of the facets at `k * blocks + j`.
     pub block_load: Vec<S::Vec>,
-    /// Force of particle a's zone on that entry; empty unless some bodies touch by zones.
+    /// Force of the zone of particle a on the particle at the same place in `contacts`; empty unless bodies touch by zones.
     pub zone_forces: Vec<S::Vec>,
     /// Neighbours of the reference configuration, kept beside a list that follows the particles: entry k of
     /// particle a at `k * count + a`, and with it V_b times the gradient at a of b's shape function.
     pub kept_neighbors: Vec<u32>,
     pub kept_gradients: Vec<S::Vec>,
-    /// Total Lagrangian on the CPU.
+    /// The distinct bonds of the reference configuration, kept by the CPU path in the Total Lagrangian formulation.
     pub bond_table: BondTable<S>,
     /// Largest rate, squared displacement since the list was built, squared speed, and fault, of each block.
     pub block_bound: Vec<[S::Real; 4]>,
@@ -117,8 +117,8 @@ impl<S: Space> State<S> {
         let is = |column: &[u32]| column.get(e).is_some_and(|&word| word > 0);
         is(&self.particles.facet_pressed) || is(&self.particles.facet_obstacle)
     }
-    /// How the surface of particle a touches facet f, which is in the list of one of a's: nowhere else to be looked up
-    /// if all surfaces touch alike.
+    /// How the surface of particle a touches facet f, where f is in the list of a facet of a. If all touching surfaces have
+    /// the same numbers (`facet_alike`), these are read at once, without the bodies of a and f.
     #[inline(always)]
     pub fn listed_pair(&self, a: usize, f: usize) -> &FacetPair<S::Real> {
         if self.params.facet_alike > 0 {
