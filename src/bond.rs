@@ -2,8 +2,8 @@
 //! Twin: shaders/lib/bond.wgsl
 //!
 //! A pass takes its bonds from one of two sources: [`Listed`] evaluates the kernel anew at each bond, as the
-//! shaders do, which costs little memory; [`Tabulated`] looks it up among the distinct bonds of the scene, of
-//! which a lattice has as many as a particle has neighbours, and runs three times as fast on the CPU.
+//! shaders do, which costs little memory; [`Tabulated`] looks the kernel up in a table of the scene's distinct bonds, which
+//! runs three times as fast on the CPU. A lattice has only as many distinct bonds as a particle has neighbours.
 //!
 //! Measured with 100,000 particles on a cubic lattice in f64, in particle-updates per core-second: the kernel
 //! evaluated bond by bond 1.0e6, in blocks of eight 1.5e6, stored with each bond 1.8e6 (the memory is the limit),

@@ -42,7 +42,7 @@ fn main(invocation: Invocation) {
     if e >= params.facet_count || clock.running == 0u {
         return;
     }
-    // Counted from 1.
+    // Index of the obstacle, plus 1; 0 for none.
     var found = 0u;
     var nearest = Nearest(0.0, Vec());
     for (var k = 0u; k < params.obstacle_count; k++) {
@@ -68,7 +68,7 @@ fn main(invocation: Invocation) {
     facet_heat[e] = touch.heat;
 #endif
 #endif
-    // Out of touch as before: there is nothing to add, nor to take back.
+    // The facet was out of touch before and still is: there is no force to add, and no earlier one to set to zero.
     if found == 0u && facet_obstacle[e] == 0u {
         return;
     }

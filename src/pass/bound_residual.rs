@@ -16,7 +16,7 @@ use crate::rows::{Fault, REDUCTION_BLOCK};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
-/// Sums of m a.v, m a^2, m v^2 and a gap; then the largest force, force scale, rate c/h and fault.
+/// Four sums, m a.v, m a^2, m v^2 and an unused one, and four maxima: force, force scale, rate c/h and fault.
 type Measure<R> = [R; 8];
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

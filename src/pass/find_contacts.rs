@@ -18,7 +18,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
         return;
     }
     let mut counts = std::mem::take(&mut state.particles.contact_count);
-    // What a chunk has found lies together; few particles find any.
+    // The lists of a chunk are kept one after the other: few particles touch anything, so that most lists are empty.
     let mut found: Vec<Option<Vec<u32>>> = vec![None; counts.len().div_ceil(CHUNK)];
     let chunks = Wide { entries: &mut counts[..], width: CHUNK };
     write_rows((chunks, &mut found[..]), 1, |k, (counts, list)| *list = list_chunk(state, k * CHUNK, counts));

@@ -20,7 +20,8 @@ const CONTACT_APART: f64 = 3.0;
 /// list costs little and a rare search saves much.
 const CONTACT_MARGIN: f64 = 1.0;
 
-/// Keeps the viscosity of a particle on a mirror plane and its own image from being 0/0; lost in rounding elsewhere.
+/// Least softening of the viscosity's denominator r^2 + softening h^2, so that a particle on a mirror plane and its own image
+/// do not give 0/0. For all other pairs so small a number is lost in rounding.
 const LEAST_SOFTENING: f64 = 1e-9;
 
 impl Scene {

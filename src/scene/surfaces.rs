@@ -139,7 +139,7 @@ impl Parts<'_> {
             if !(radius > 0.0 && radius.is_finite()) {
                 return Err(format!("radius must be a positive number, found {radius}"));
             }
-            // From where it touches first to its centre.
+            // The axis leads from the point that touches first to the centre.
             let inward = -self.toward_bodies(center, along, velocity);
             Ok(Obstacle::new(kind, center - inward * radius, [inward, along], radius, 0.0))
         };
@@ -212,7 +212,7 @@ impl Parts<'_> {
             let mut pieces = facets(&typed.shape, body.spacing, used(anchor, self.file.dimension), self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
             let own = self.particles.iter().enumerate().filter(|(_, p)| p.body as usize == k);
-            // What lies deeper carries no piece of the surface.
+            // A particle that lies deeper than this carries no facet.
             let deep = -2.0 * body.spacing;
             let own = own.filter(|(_, p)| typed.shape.distance(p.position, self.file.dimension) > deep);
             let (numbers, positions): (Vec<u32>, Vec<DVec3>) = own.map(|(i, p)| (i as u32, p.position)).unzip();
