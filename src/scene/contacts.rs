@@ -43,10 +43,12 @@ pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
             other.between == contact.between || other.between == [b.clone(), a.clone()]
         };
         refuse.unless(!file.contact[..k].iter().any(same), &path, || {
-            format!("bodies `{}` and `{}` touch in one way: name them once", contact.between[0], contact.between[1])
+            format!("two tables [[contact]] are for `{}` and `{}`: name them once", contact.between[0], contact.between[1])
         })?;
         let laws = [contact.potential.is_some(), contact.colour_field.is_some(), contact.zones.is_some()];
-        refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || "two bodies touch by one law".into())?;
+        refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || {
+            "two bodies touch by one law: name only one of potential, colour_field and zones".into()
+        })?;
         if laws.contains(&true) {
             may_touch(file, &path, refuse)?;
         }
@@ -60,7 +62,9 @@ pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
                 "in the Eulerian formulation a law of contact takes the kernel's place: name kernel = 0 beside it".into()
             })?;
             let free = table[a][b].range == 0.0;
-            refuse.unless(free, &path, || format!("bodies `{}` and `{}` touch by one law", bodies[a].name, bodies[b].name))?;
+            refuse.unless(free, &path, || {
+                format!("another [[contact]] has a law for the bodies `{}` and `{}` already", bodies[a].name, bodies[b].name)
+            })?;
             (table[a][b], table[b][a]) = (pair, pair);
         }
     }
@@ -88,9 +92,11 @@ fn pair_of(
 fn may_touch(file: &File, path: &[&str], refuse: &Refuse) -> Result<(), String> {
     let kind = file.formulation.kind;
     refuse.unless(kind != Formulation::CorrectedKernel, path, || {
-        "bodies touch where formulation.kind is `total_lagrangian` or `eulerian`".into()
+        "a law of contact needs formulation.kind `total_lagrangian` or `eulerian`".into()
     })?;
-    refuse.unless(file.symmetry.is_empty(), path, || "contact does not see mirror images: no [[symmetry]]".into())
+    refuse.unless(file.symmetry.is_empty(), path, || {
+        "contact does not see mirror images: a scene with a law of contact takes no [[symmetry]]".into()
+    })
 }
 
 fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(), String> {

@@ -321,10 +321,10 @@ impl Material {
             ));
         }
         if self.heat.is_some() && !self.yields() {
-            return Err("has a heat, but no strength that gives way and would make any".into());
+            return Err("has a heat, but no strength that yields, so that no plastic work makes heat".into());
         }
         if self.yields() && self.row().yield_stress <= 0.0 {
-            return Err("bears no stress before it flows: its strength must be above 0 there".into());
+            return Err("has a strength of 0 before any plastic flow: its numbers must give a yield stress above 0".into());
         }
         Ok(())
     }

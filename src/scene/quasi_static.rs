@@ -1,4 +1,4 @@
-//! What a scene that seeks equilibrium cannot have beside it.
+//! Refuses what a scene that seeks equilibrium cannot have.
 
 use super::SceneBody;
 use super::file::{File, QuasiStatic};

@@ -164,7 +164,7 @@ impl Kicked {
         let vectors = setting.wave_vectors(cells);
         let highest = setting.waves().largest_frequency(&vectors);
         if setting.waves().fastest(&vectors).1 > 1e-6 * highest {
-            return Err("the lattice grows at any step: limits are those of a stable one".into());
+            return Err("a wave on the lattice grows at any step: --limits needs a state in which the lattice is stable".into());
         }
         let swings = |k: &[f64; 3]| setting.waves().modes(*k).pop().map(|mode| (*k, mode));
         let fastest = vectors.iter().filter_map(swings).max_by(|a, b| a.1.frequency.total_cmp(&b.1.frequency));
