@@ -211,9 +211,9 @@ pub fn displacement_difference<S: Space, B: Source<S>>(state: &State<S>, a: usiz
     u_b - displacement[a]
 }
 
-/// Strength of the hourglass energy times Young's modulus. Where a body has flowed, times the square of the secant of
-/// its perfectly plastic stress over strain, s0/(s0 + 3 mu k): an elastic hourglass term would go on carrying load
-/// where the material cannot, and the secant itself would carry a part of the yield stress.
+/// Strength of the hourglass energy times Young's modulus. Where a body has flowed, this is multiplied by the square of
+/// s0/(s0 + 3 mu k), the secant stiffness of a perfectly plastic body over the elastic one. An elastic hourglass term would go
+/// on carrying load where the material cannot, and one that follows the secant itself would carry a part of the yield stress.
 #[inline(always)]
 pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
     let body = state.body(a);
@@ -222,14 +222,14 @@ pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
         return elastic;
     }
     let particles = &state.particles;
-    // In a descent to equilibrium as of the last one, so that forces stay the derivative of an energy.
+    // In a descent to equilibrium the strain is that of the last equilibrium, so that forces stay the derivative of an energy.
     let settled = state.method.quasi_static.is_some();
     let k = if settled { particles.equilibrium_plastic_strain[a] } else { particles.equivalent_plastic_strain[a] };
     let secant = body.yield_stress / (body.yield_stress + S::Real::of(3.0) * body.shear_modulus * k);
     elastic * secant * secant
 }
 
-/// The distinct bonds of a scene, on the CPU only. Empty until made, and where there are too many.
+/// The distinct bonds of a scene, on the CPU only. The table is empty before it is made, and if there are too many bonds.
 #[derive(Clone)]
 pub struct BondTable<S: Space> {
     pub rows: Vec<Row<S>>,

@@ -289,39 +289,39 @@ pub const FLAGS: &[(&str, Condition)] = &[
 ];
 
 impl Method {
-    /// Stress follows from the deformation gradient.
+    /// Whether stress follows from the deformation gradient.
     pub fn finite_strain(&self) -> bool {
         self.formulation != Formulation::Eulerian
     }
-    /// The neighbour list follows the particles.
+    /// Whether the neighbour list is made anew as the particles move.
     pub fn list_follows(&self) -> bool {
         self.formulation == Formulation::Eulerian || self.corrected_kernel.is_some_and(|options| options.current())
     }
-    /// Some list must follow the particles.
+    /// Whether any list, of neighbours or of contacts, is made anew as the particles move.
     pub fn listed_again(&self) -> bool {
         self.list_follows() || self.contact.any() || self.gap.is_some()
     }
-    /// Bodies touch by pieces of their surfaces.
+    /// Whether bodies touch each other or obstacles by facets of their surfaces.
     pub fn facets(&self) -> bool {
         self.gap.is_some() || self.obstacles
     }
-    /// Steps are made of stages.
+    /// Whether a step is made of Runge-Kutta stages.
     pub fn staged(&self) -> bool {
         !matches!(self.integrator, Integrator::Leapfrog | Integrator::Pefrl)
     }
-    /// Viscosity turns energy into heat at a rate that the kicks add up; a law that relaxes adds up its own.
+    /// Whether kicks add up the heat of viscosity from its rate. Laws that relax or yield add up their own heat.
     pub fn dissipated_power(&self) -> bool {
         self.dissipated_energy && self.viscosity
     }
-    /// Stress follows from the deformation gradient and from what some law remembers beside it.
+    /// Whether stress at finite strain depends on more than the deformation gradient, by a law that remembers.
     pub fn memory(&self) -> bool {
         self.finite_strain() && self.laws.iter().any(|law| law.has_memory())
     }
-    /// Particles have a temperature.
+    /// Whether particles have a temperature.
     pub fn heated(&self) -> bool {
         self.laws.iter().any(|law| law.role() == Role::Heat)
     }
-    /// Some law yields.
+    /// Whether some law yields.
     pub fn plastic(&self) -> bool {
         self.laws.iter().any(|law| law.yields())
     }
