@@ -9,8 +9,8 @@ super::law::law! {
     J2, j2, Strength, "metal plasticity: flows where the Mises stress reaches `yield_stress`, which may harden";
     reads: [], remembers: [InelasticStrain, EquivalentPlasticStrain];
     yield_stress: STRESS, Range::Positive, None, 0.05, "Mises stress at which the body begins to flow";
-    hardening: STRESS, Range::NotNegative, Some(0.0), 0.1, "what multiplies the power of the equivalent plastic strain";
-    hardening_exponent: NONE, Range::UpTo(0.0, 1.0), Some(1.0), 0.3, "that power";
+    hardening: STRESS, Range::NotNegative, Some(0.0), 0.1, "modulus of linear hardening, or the factor of a power of the equivalent plastic strain";
+    hardening_exponent: NONE, Range::UpTo(0.0, 1.0), Some(1.0), 0.3, "exponent of the equivalent plastic strain, typed as `exponent` inside `hardening`";
 }
 
 /// k^n for k >= 0, by a logarithm and an exponential as in the shader twin `power_of`; 0 at k = 0.
