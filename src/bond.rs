@@ -2,8 +2,8 @@
 //! Twin: shaders/lib/bond.wgsl
 //!
 //! A pass takes its bonds from one of two sources: [`Listed`] evaluates the kernel anew at each bond, as the
-//! shaders do, which costs little memory; [`Tabulated`] looks it up among the distinct bonds of the scene, of
-//! which a lattice has as many as a particle has neighbours, and runs three times as fast on the CPU.
+//! shaders do, which costs little memory; [`Tabulated`] looks the kernel up in a table of the scene's distinct bonds, which
+//! runs three times as fast on the CPU. A lattice has only as many distinct bonds as a particle has neighbours.
 //!
 //! Measured with 100,000 particles on a cubic lattice in f64, in particle-updates per core-second: the kernel
 //! evaluated bond by bond 1.0e6, in blocks of eight 1.5e6, stored with each bond 1.8e6 (the memory is the limit),
@@ -211,9 +211,9 @@ pub fn displacement_difference<S: Space, B: Source<S>>(state: &State<S>, a: usiz
     u_b - displacement[a]
 }
 
-/// Strength of the hourglass energy times Young's modulus. Where a body has flowed, times the square of the secant of
-/// its perfectly plastic stress over strain, s0/(s0 + 3 mu k): an elastic hourglass term would go on carrying load
-/// where the material cannot, and the secant itself would carry a part of the yield stress.
+/// Strength of the hourglass energy times Young's modulus. Where a body has flowed, this is multiplied by the square of
+/// s0/(s0 + 3 mu k), the secant stiffness of a perfectly plastic body over the elastic one. An elastic hourglass term would go
+/// on carrying load where the material cannot, and one that follows the secant itself would carry a part of the yield stress.
 #[inline(always)]
 pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
     let body = state.body(a);
@@ -222,14 +222,14 @@ pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
         return elastic;
     }
     let columns = &state.columns;
-    // In a descent to equilibrium as of the last one, so that forces stay the derivative of an energy.
+    // In a descent to equilibrium the strain is that of the last equilibrium, so that forces stay the derivative of an energy.
     let settled = state.method.quasi_static.is_some();
     let k = if settled { columns.equilibrium_plastic_strain[a] } else { columns.equivalent_plastic_strain[a] };
     let secant = body.yield_stress / (body.yield_stress + S::Real::of(3.0) * body.shear_modulus * k);
     elastic * secant * secant
 }
 
-/// The distinct bonds of a scene, on the CPU only. Empty until made, and where there are too many.
+/// The distinct bonds of a scene, on the CPU only. The table is empty before it is made, and if there are too many bonds.
 #[derive(Clone)]
 pub struct BondTable<S: Space> {
     pub rows: Vec<Row<S>>,

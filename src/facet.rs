@@ -39,7 +39,7 @@ pub struct Facing<S: Space> {
     pub by_turn: S::Real,
 }
 
-/// Without a branch: a third of a list is out of range, in no order that a processor could foresee.
+/// The code has no branch: a third of a list is out of range, in no order that a processor could predict.
 #[inline(always)]
 pub fn facing<S: Space>(state: &State<S>, e: usize, f: usize, range: S::Real) -> Facing<S> {
     let (columns, zero, one) = (&state.columns, S::Real::of(0.0), S::Real::of(1.0));
@@ -63,7 +63,7 @@ pub fn facet_separation<S: Space>(state: &State<S>, e: usize, f: usize) -> S::Ve
         + (columns.facet_displacement[e] - columns.facet_displacement[f])
 }
 
-/// Facet e's way from its particle in the reference configuration.
+/// Separation of facet e from its particle in the reference configuration.
 #[inline(always)]
 pub fn lever<S: Space>(state: &State<S>, e: usize) -> S::Vec {
     let columns = &state.columns;
@@ -80,8 +80,8 @@ pub fn fade<R: Real>(t: R) -> (R, R) {
     (t * t * (three - two * t), R::of(6.0) * t * (one - t))
 }
 
-/// Coulomb friction with an elastic slip: the slip that is left of an increased one, the traction's length being
-/// `stiffness` times it and at most `limit`; and the heat, which is the elastic energy of what went.
+/// Coulomb friction with an elastic slip. The traction is `stiffness` times the slip and at most `limit`: returns the slip cut
+/// down to that, and the heat, which is the elastic energy that the cut has released.
 #[inline(always)]
 pub fn stick<S: Space>(slip: S::Vec, stiffness: S::Real, limit: S::Real) -> (S::Vec, S::Real) {
     let length = S::inner(slip, slip).sqrt();

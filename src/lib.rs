@@ -30,7 +30,7 @@
 //! # What is deliberately absent
 //!
 //! Files import each other in no large circle: [`method`] and [`rows`], the words and the numbers of a run, lie below
-//! everything that reads them.
+//! everything that reads them. `ARCHITECTURE.md` has the layers and says where a new thing goes.
 //!
 //! A pass writes to particle (cell, block) i only. There are no float atomics: the same run gives the same bits
 //! on the same device. [`scene`] knows no device, observables never touch one, and the host never waits inside

@@ -81,14 +81,14 @@ pub enum Descent {
     KineticDamping,
 }
 
-/// Which terms of the force act.
+/// Which terms of the force between facets act.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GapForm {
-    /// All: the derivative of the energy.
+    /// All terms, together the derivative of an energy, so that energy and both momenta are kept.
     #[default]
     Potential,
-    /// Those along the normals: neither energy nor angular momentum is kept.
+    /// Only the terms along the normals: neither energy nor angular momentum is kept.
     AlongNormals,
 }
 
@@ -122,7 +122,7 @@ pub enum VelocityGradient {
     Printed,
 }
 
-/// The options of a scene.
+/// The options of the formulation [`Formulation::CorrectedKernel`] that a scene chooses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CorrectedKernel {
     pub correction: bool,
@@ -140,8 +140,8 @@ impl CorrectedKernel {
         self.deformation == Deformation::Evolved
     }
 
-    /// Forces are summed where the particles are, F where they were: the neighbours of the reference configuration
-    /// are kept apart.
+    /// Whether forces are summed over the present positions but F over the reference positions, so that the neighbours of
+    /// the reference configuration must be kept beside the present list.
     pub fn keeps_gradients(self) -> bool {
         self.current() && !self.evolved()
     }
@@ -152,7 +152,7 @@ impl CorrectedKernel {
 pub struct Method {
     pub dimension: usize,
     pub formulation: Formulation,
-    /// Options of that formulation.
+    /// Options of the corrected kernel's formulation; None in the others.
     pub corrected_kernel: Option<CorrectedKernel>,
     /// Laws of the scene's materials, each once, in order of their numbers.
     pub laws: Vec<Law>,
@@ -173,15 +173,15 @@ pub struct Method {
     pub body_force: bool,
     /// Energy against motions that the deformation gradient does not see.
     pub hourglass: bool,
-    /// On the CPU, keep the distinct bonds.
+    /// The CPU path keeps the kernel values of the distinct bonds.
     pub bond_table: bool,
-    /// How surfaces touch.
+    /// Laws of contact between particles: potentials, colour field, zones.
     pub contact: contact::Laws,
-    /// Surfaces keep apart by their facets.
+    /// Surfaces of bodies keep apart by their facets, and by which terms of the force; None where they do not.
     pub gap: Option<GapForm>,
     /// Rigid obstacles stand in the way.
     pub obstacles: bool,
-    /// Facets rub.
+    /// Facets feel Coulomb friction on other surfaces or on obstacles.
     pub friction: bool,
     pub viscosity: bool,
     pub xsph: bool,
@@ -193,7 +193,7 @@ pub struct Method {
     pub compensated: bool,
 }
 
-/// An elastic body in the plane, Eulerian, with nothing beside.
+/// The method of one elastic body in the plane in the Eulerian formulation, without any option.
 impl Default for Method {
     fn default() -> Self {
         Self {
@@ -289,39 +289,39 @@ pub const FLAGS: &[(&str, Condition)] = &[
 ];
 
 impl Method {
-    /// Stress follows from the deformation gradient.
+    /// Whether stress follows from the deformation gradient.
     pub fn finite_strain(&self) -> bool {
         self.formulation != Formulation::Eulerian
     }
-    /// The neighbour list follows the particles.
+    /// Whether the neighbour list is made anew as the particles move.
     pub fn list_follows(&self) -> bool {
         self.formulation == Formulation::Eulerian || self.corrected_kernel.is_some_and(|options| options.current())
     }
-    /// Some list must follow the particles.
+    /// Whether any list, of neighbours or of contacts, is made anew as the particles move.
     pub fn listed_again(&self) -> bool {
         self.list_follows() || self.contact.any() || self.gap.is_some()
     }
-    /// Bodies touch by pieces of their surfaces.
+    /// Whether bodies touch each other or obstacles by facets of their surfaces.
     pub fn facets(&self) -> bool {
         self.gap.is_some() || self.obstacles
     }
-    /// Steps are made of stages.
+    /// Whether a step is made of Runge-Kutta stages.
     pub fn staged(&self) -> bool {
         !matches!(self.integrator, Integrator::Leapfrog | Integrator::Pefrl)
     }
-    /// Viscosity turns energy into heat at a rate that the kicks add up; a law that relaxes adds up its own.
+    /// Whether kicks add up the heat of viscosity from its rate. Laws that relax or yield add up their own heat.
     pub fn dissipated_power(&self) -> bool {
         self.dissipated_energy && self.viscosity
     }
-    /// Stress follows from the deformation gradient and from what some law remembers beside it.
+    /// Whether stress at finite strain depends on more than the deformation gradient, by a law that remembers.
     pub fn memory(&self) -> bool {
         self.finite_strain() && self.laws.iter().any(|law| law.has_memory())
     }
-    /// Particles have a temperature.
+    /// Whether particles have a temperature.
     pub fn heated(&self) -> bool {
         self.laws.iter().any(|law| law.role() == Role::Heat)
     }
-    /// Some law yields.
+    /// Whether some law yields.
     pub fn plastic(&self) -> bool {
         self.laws.iter().any(|law| law.yields())
     }

@@ -216,8 +216,8 @@ pub fn pair_coupling<S: Space>(state: &State<S>, a: usize, b: usize) -> S::Real 
     if state.method.coupling { state.coupling_of(a, b) } else { S::Real::of(1.0) }
 }
 
-/// Inverse of a moment matrix, or `otherwise` where the neighbours lie on a line or a plane. Its numbers may be small,
-/// as at the corner of a cube, as long as they are alike.
+/// Inverse of a moment matrix, or `otherwise` where the neighbours lie on a line or a plane. The principal moments may be small,
+/// as at the corner of a cube, if they are of the same size.
 #[inline(always)]
 pub fn inverse_or<S: Space>(moment: S::Mat, otherwise: S::Mat) -> S::Mat {
     let determinant = S::determinant(moment);

@@ -1,8 +1,8 @@
 //! What a run can be composed of, as a value: shader library, kernels, potentials, laws, fields and passes.
 //!
-//! A run takes from [`Registry::full`] what its method names. That it pays for nothing else is shown by taking
-//! everything else away: [`Registry::own`] holds what one method names, and composes the same texts, byte for byte;
-//! and it holds nothing that the method could do without.
+//! A run takes from [`Registry::full`] the parts that its method names. Tests show that it pays for nothing else by taking
+//! everything else away: [`Registry::own`] holds only the parts that one method names, none of which it could do without, and
+//! composes the same texts, byte for byte.
 
 use crate::backend::shader;
 use crate::contact::Potential;

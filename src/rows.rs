@@ -14,7 +14,7 @@ pub struct Params<R> {
     /// Axis-aligned mirror planes: normal and distance from the origin along it.
     pub planes: [[R; 4]; 3],
     pub count: u32,
-    /// First particle, and number of particles, of the part of the neighbour list that is bound.
+    /// First particle, and number of particles, of the part of the neighbour list that a dispatch has bound.
     pub first: u32,
     pub chunk: u32,
     pub list_capacity: u32,
@@ -30,12 +30,14 @@ pub struct Params<R> {
     /// Entries that a facet's list of contacts can hold.
     pub facet_capacity: u32,
     pub obstacle_count: u32,
-    /// Place of the one pair that stands for all where all surfaces touch alike, plus 1; else 0.
+    /// If every two touching surfaces have the same numbers: index of one such pair in the table of facet pairs, plus 1, so
+    /// that loops read that row and look up no body. 0 if the numbers differ.
     pub facet_alike: u32,
-    /// Most neighbours that a particle on a surface has, and one at a corner.
+    /// A particle with at most `surface_count` neighbours lies on a surface, with at most `corner_count` at a corner.
     pub surface_count: u32,
     pub corner_count: u32,
-    /// Always zero; the compiler does not know it.
+    /// Always 0. Shaders combine sums with it by exclusive or: a compiler cannot know that it is 0, and so cannot simplify
+    /// (a + b) - a to b, which would lose the rounding error that compensated sums keep.
     pub zero: u32,
     pub origin_x: R,
     pub origin_y: R,
@@ -58,11 +60,12 @@ pub struct Params<R> {
     pub contact_reach: R,
     /// Distance up to which pairs enter the list of facets.
     pub facet_reach: R,
-    /// Rate that the stiffness of contact by facets adds to that of waves over h, in squares.
+    /// Square of the rate (1/time^2) that the stiffness of contact by facets gives a particle. The bound on the time step is
+    /// the root of this number plus the square of the rate of waves, c/h.
     pub contact_rate: R,
     /// Particles of one body touch only if they were farther apart than this.
     pub contact_apart: R,
-    /// Displacement after which the list must be built anew.
+    /// Displacement of a particle (length) after which the neighbour list must be built anew.
     pub slack: R,
     /// Strength of the hourglass energy, over Young's modulus.
     pub hourglass: R,
@@ -72,7 +75,7 @@ pub struct Params<R> {
     /// Weight of the neighbours in the smoothed velocity.
     pub smoothing_weight: R,
     pub artificial_epsilon: R,
-    /// Kernel at the spacing where the artificial stress has its nominal strength.
+    /// W at the spacing where the artificial stress has its nominal strength, f = 1.
     pub artificial_weight: R,
     pub cfl: R,
     /// Fixed time step, or 0.
@@ -101,7 +104,7 @@ impl<R> Params<R> {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Body<R> {
-    /// Its law for each role, as [`crate::material::Law::number`] gives it: a law that is whole, or those of the roles, and 0 for none.
+    /// The body's law for each role, as [`crate::material::Law::number`] gives it, 0 for none: either `whole`, or the others.
     pub whole: u32,
     pub pressure: u32,
     pub strength: u32,
@@ -111,13 +114,13 @@ pub struct Body<R> {
     pub bulk_modulus: R,
     pub shear_modulus: R,
     pub youngs_modulus: R,
-    /// What its strength bears before anything has flowed; 0 where it does not give way.
+    /// Mises stress that the strength bears before anything has flowed; 0 for a body that does not yield.
     pub yield_stress: R,
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,
     pub padding: R,
-    /// Numbers of its laws, those of a role from [`crate::material::Role::first`] on in the order of their declaration.
+    /// Numbers of the body's laws: those of a role begin at [`crate::material::Role::first`], in the order of its declaration.
     pub numbers: [R; NUMBERS],
 }
 
@@ -129,9 +132,9 @@ pub struct ContactPair<R> {
     pub law: u32,
     /// n of Strand's repulsive force.
     pub exponent: u32,
-    /// Factor of the potential, an energy; k of the colour field; the zones' force.
+    /// For a potential its factor, an energy; for the colour field k, an energy per volume; for zones a force.
     pub strength: R,
-    /// Distance at which it ends, half side of the zones; 0 where the bodies do not touch.
+    /// Distance at which a potential or colour field ends, or half the side of a zone; 0 where the bodies do not touch.
     pub range: R,
     /// c0 of the colour field.
     pub threshold: R,
@@ -160,11 +163,11 @@ impl ContactPair<f64> {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C)]
 pub struct FacetPair<R> {
-    /// Pressure over depth; 0 where they do not touch.
+    /// Pressure over depth (stress/length); 0 where the two do not touch.
     pub stiffness: R,
     /// Distance R from a facet at which its weight ends; 0 for an obstacle.
     pub range: R,
-    /// Sum of weights D_0 below which the energy fades.
+    /// Sum of weights D_0 below which the energy fades to 0: see [`crate::facet`].
     pub full: R,
     /// Coefficient of friction.
     pub friction: R,
@@ -184,7 +187,7 @@ pub struct Obstacle<R> {
     /// Number of the [`crate::obstacle::ObstacleKind`].
     pub kind: u32,
     pub padding: u32,
-    /// Where it stands (m): a point of its surface. [`crate::obstacle::distance`] takes points relative to this.
+    /// A point of the obstacle's surface (length). [`crate::obstacle::distance`] takes points relative to this one.
     pub point_x: R,
     pub point_y: R,
     pub point_z: R,
@@ -196,9 +199,9 @@ pub struct Obstacle<R> {
     pub turn_x: R,
     pub turn_y: R,
     pub turn_z: R,
-    /// Of a sphere or cylinder (m).
+    /// Radius of a sphere or cylinder (length).
     pub radius: R,
-    /// Of the angle between the axis and the surface of a cone or pyramid.
+    /// Cosine and sine of the angle between the axis and the surface of a cone or pyramid.
     pub cosine: R,
     pub sine: R,
 }
@@ -209,7 +212,7 @@ pub struct Obstacle<R> {
 pub struct Mover<R> {
     /// Boundary condition that gives its velocity, plus 1; 0 for none.
     pub condition: u32,
-    /// 0 where the motion is prescribed.
+    /// 1/mass; 0 for an obstacle whose motion is prescribed.
     pub inverse_mass: R,
 }
 
@@ -240,7 +243,7 @@ pub struct Clock<R> {
     pub start: R,
     pub elapsed: R,
     pub elapsed_carry: R,
-    /// The next step.
+    /// Length of the next step, a time.
     pub step: R,
     /// Length of the segment.
     pub duration: R,

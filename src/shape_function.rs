@@ -47,7 +47,7 @@ pub struct Shape<S: Space> {
     pub slope_gradient: S::Mat,
 }
 
-/// The nodes of particle a, itself the last. `reference`: in the reference configuration.
+/// The nodes of particle a, of which the last is a itself; with `reference` those of the reference configuration.
 #[inline(always)]
 pub fn nodes<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iterator<Item = Node<S>> {
     let kernel = Scaled::<S::Real>::new(state.method.smoothing, S::DIMENSION);
@@ -149,7 +149,7 @@ impl<S: Space> Shape<S> {
     pub fn value(&self, x: S::Vec, weight: S::Real) -> S::Real {
         self.factor * (S::Real::of(1.0) + S::inner(self.slope, x)) * weight
     }
-    /// Its gradient.
+    /// Gradient of psi_b here, x from b to here.
     #[inline(always)]
     pub fn gradient(&self, x: S::Vec, weight: S::Real, slope: S::Real) -> S::Vec {
         let tilt = S::Real::of(1.0) + S::inner(self.slope, x);

@@ -25,11 +25,11 @@ pub struct State<S: Space> {
     /// Contact of obstacle k and body b at `k * body_count + b`.
     pub obstacle_pairs: Vec<FacetPair<S::Real>>,
     pub constraints: Vec<Constraint<S::Real>>,
-    /// Time and factor.
+    /// Points of all time courses: time, and factor of the prescribed velocity or force.
     pub course: Vec<[S::Real; 2]>,
     /// All that has rows by count.
     pub columns: Columns<S>,
-    /// Total Lagrangian on the CPU.
+    /// The distinct bonds of the reference configuration, kept by the CPU path in the Total Lagrangian formulation.
     pub bond_table: BondTable<S>,
     /// How the descent to equilibrium goes on.
     pub balance: Balance<S::Real>,
@@ -103,8 +103,8 @@ impl<S: Space> State<S> {
         let is = |column: &[u32]| column.get(e).is_some_and(|&word| word > 0);
         is(&self.columns.facet_pressed) || is(&self.columns.facet_obstacle)
     }
-    /// How the surface of particle a touches facet f, which is in the list of one of a's: nowhere else to be looked up
-    /// if all surfaces touch alike.
+    /// How the surface of particle a touches facet f, where f is in the list of a facet of a. If all touching surfaces have
+    /// the same numbers (`facet_alike`), these are read at once, without the bodies of a and f.
     #[inline(always)]
     pub fn listed_pair(&self, a: usize, f: usize) -> &FacetPair<S::Real> {
         if self.params.facet_alike > 0 {

@@ -29,7 +29,7 @@ fn stress_evolves(method: &Method) -> bool {
     method.shear || method.density == Density::Continuity
 }
 
-/// From state to acceleration.
+/// Adds the passes that lead from the state to the acceleration.
 fn force(method: &Method, calls: &mut Vec<Call>) {
     if let Some(options) = method.corrected_kernel {
         corrected_kernel::force(options, calls);
@@ -96,7 +96,7 @@ fn press_surfaces(method: &Method, calls: &mut Vec<Call>) {
     calls.extend(gap.iter().chain(obstacles).map(|&pass| call(pass)));
 }
 
-/// Particles into cell order, a fresh list.
+/// Brings the columns of particles into cell order, and lists neighbours in that order.
 fn order(reference: bool, calls: &mut Vec<Call>) {
     sort(reference, calls);
     calls.push(call(Pass::Reorder));
@@ -125,7 +125,8 @@ pub fn prepare(method: &Method) -> Vec<Call> {
     if let Some(zones) = method.contact.zones {
         let initial = zones.normals == Normals::Initial;
         if method.formulation == Formulation::Eulerian && initial {
-            // In the order that they have, so that a resumed run sums as an unbroken one.
+            // The particles are listed but not reordered: a resumed run then sums in the same order, and so to the same
+            // bits, as an unbroken one.
             list(true, &mut calls);
         }
         if method.formulation == Formulation::TotalLagrangian || initial {
@@ -361,8 +362,8 @@ pub fn fields(method: &Method) -> Vec<Field> {
     needed.into_iter().collect()
 }
 
-/// All calls of a run of this method with the stage of the run that makes them; what precedes a fetch is that of all
-/// fields.
+/// All calls of a run of this method, each with the stage of the run that makes it. The stage `before_fetch` is that of a
+/// fetch of all fields.
 pub fn calls(method: &Method) -> Vec<(&'static str, Call)> {
     let stages = [
         ("prepare", prepare(method)),

@@ -1,4 +1,4 @@
-// A neighbour in the reference configuration. The pass declares `reference_position`. Twin: bonds in src/pair.rs
+// A neighbour in the reference configuration. The pass declares `reference_position`. Twin: Bond in src/bond.rs
 //
 // A loop reads entry k of its particle from neighbors[k * params.chunk + row].
 #import body

@@ -1,7 +1,7 @@
-// Sum that hands back what rounding dropped. Twin: compensated_add in src/pass/mod.rs
+// Adds an increment to a sum and keeps the rounding error. Twin: compensated_add in src/pass/write.rs
 //
-// Drivers simplify (sum + y) - sum to y; a sum hidden behind an exclusive or with a zero that they do not
-// know, they cannot.
+// Drivers' compilers simplify (sum + y) - sum to y, which loses the error. An exclusive or with `params.zero`, which is
+// always 0 but not known to the compiler, hides the sum from them.
 #import params
 
 struct Compensated {

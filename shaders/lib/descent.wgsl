@@ -9,7 +9,7 @@ const LONGER: real = 1.1;
 const SHORTER: real = 0.5;
 // Steps downhill after which the step grows.
 const PATIENCE: u32 = 5u;
-// The first step and the shortest one, over the longest.
+// Length of the first step, and of the shortest one, over the longest stable step.
 const FIRST_STEP: real = 0.25;
 const SHORTEST_STEP: real = 0.02;
 
@@ -23,7 +23,7 @@ struct Measure {
 fn go_on(all: Measure) {
     var next = clock;
     var plan = balance;
-    // The first call of a segment finds no step behind it.
+    // The first call of a segment comes before any step: it sets the first step and counts none.
     if next.step > 0.0 {
         next.steps_left -= 1u;
         next.steps_done += 1u;

@@ -1,5 +1,5 @@
 // u_b - u_a, the neighbour's displacement mirrored if it is an image. The pass declares `displacement`.
-// Twin: displacement_difference in src/pair.rs
+// Twin: displacement_difference in src/bond.rs
 #import bond
 
 fn displacement_difference(displacement_a: Vec, bond: Bond) -> Vec {

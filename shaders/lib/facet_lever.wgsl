@@ -1,4 +1,4 @@
-// A facet's way from its particle in the reference configuration. Twin: lever in src/facet.rs
+// Separation of a facet from its particle in the reference configuration. Twin: lever in src/facet.rs
 #import tensor
 
 @group(0) @binding(_) var<storage, read> facet_owner: array<u32>;

@@ -5,7 +5,7 @@
 #import memory
 #import yielding
 
-// Rounds that make q = sY.
+// Rounds that bring the Mises stress q to the flow stress sY.
 const FINITE_ROUNDS: u32 = 5u;
 
 // Of A = C_p C'^-1: tr A/3, tr A^D A^D, det A^D.

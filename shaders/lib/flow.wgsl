@@ -1,4 +1,5 @@
-// Where a strength is asked what it bears, and what it bears. Twin: Point and Flow in src/material/point.rs
+// The state in which a strength is asked for the stress that it bears, and the answer. Twin: Point and Flow in
+// src/material/point.rs
 #import params
 
 struct Point {

@@ -6,7 +6,7 @@ fn hourglass_stiffness(a: u32, own: Body) -> real {
     let elastic = params.hourglass * own.youngs_modulus;
 #if plastic
     if own.yield_stress != 0.0 {
-        // In a descent to equilibrium as of the last one.
+        // In a descent to equilibrium the strain is that of the last equilibrium.
 #if quasi_static
         let k = equilibrium_plastic_strain[a];
 #else

@@ -1,11 +1,11 @@
 // Inverses of moment matrices. Twins: inverse_or, safe_inverse in src/pair.rs
 #import tensor
 
-// Of the determinant, over the mean principal moment to the power of the dimension.
+// Smallest determinant, over the mean principal moment to the power of the dimension, of a matrix that is inverted.
 const LEAST_DETERMINANT: real = 1e-3;
 
-// Or `otherwise` where the neighbours lie on a line or a plane. The numbers may be small, as at the corner of a cube, as
-// long as they are alike.
+// Inverse of a moment matrix, or `otherwise` where the neighbours lie on a line or a plane. The principal moments may be small,
+// as at the corner of a cube, if they are of the same size.
 fn inverse_or(moment: Mat, otherwise: Mat) -> Mat {
     let mean = trace(moment) * (1.0 / real(DIMENSION));
     var least = LEAST_DETERMINANT;
@@ -23,7 +23,7 @@ fn inverse_or(moment: Mat, otherwise: Mat) -> Mat {
 // edges of a body are below it too, where h is large.
 const SMALLEST_DETERMINANT: real = 0.02;
 
-// Or the unit tensor where too few neighbours are left to define one.
+// Inverse of a moment matrix, or the unit tensor where too few neighbours are left to define one.
 fn safe_inverse(moment: Mat) -> Mat {
     let determinant = determinant_mat(moment);
     if determinant > SMALLEST_DETERMINANT {

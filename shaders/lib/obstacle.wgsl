@@ -1,7 +1,7 @@
 // Rigid bodies of exact shape. Twin: src/obstacle.rs
 #import tensor
 
-// In src/obstacle.rs too; a test compares the offsets.
+// Twin: Obstacle in src/rows.rs; a test compares the offsets.
 struct Obstacle {
     kind: u32,
     padding: u32,

@@ -111,7 +111,7 @@ struct Clock {
     duration: real,
     steps_left: u32,
     steps_done: u32,
-    // `active` is a reserved word of WGSL.
+    // 0 once the segment is over. The plainer name `active` is a reserved word of WGSL.
     running: u32,
     rebuild: u32,
     lists_built: u32,

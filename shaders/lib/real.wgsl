@@ -1,2 +1,2 @@
-// The precision of all floating-point numbers.
+// The precision of all floating-point numbers of the shaders.
 alias real = f32;

@@ -1,5 +1,5 @@
 // Correction of the kernel at a point, psi_b(x) = alpha (1 + beta . r) W(r), r = x - x_b.
-// Twin: Shape in src/shape.rs
+// Twin: Shape in src/shape_function.rs
 #import tensor
 
 struct Shape {

@@ -1,4 +1,4 @@
-// The correction of a particle, as it was last made, and a neighbour's vectors. Twin: src/shape.rs
+// The correction of a particle, as it was last made, and a neighbour's vectors. Twin: src/shape_function.rs
 #import shape
 #if symmetry
 #import mirror

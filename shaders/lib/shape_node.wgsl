@@ -1,6 +1,6 @@
 // The particles whose shape functions do not vanish where a particle is, itself among them. The pass declares
 // `reference_position`, `displacement`, `reference_volume`, and in the current configuration `volumetric_strain`.
-// Twin: nodes in src/shape.rs
+// Twin: nodes in src/shape_function.rs
 #import body
 #import kernel
 #import separation

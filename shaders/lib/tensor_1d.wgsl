@@ -18,7 +18,7 @@ fn vec_to(v: Vec) -> vec3<real> {
 fn mask_of(bits: u32) -> Mask {
     return (bits & 1u) != 0u;
 }
-// The same number, of which the compiler knows nothing if `zero` is a zero that it does not know.
+// The same number, hidden from the compiler: `zero` is always 0, but read from memory, so that nothing can be simplified.
 fn hidden(v: Vec, zero: u32) -> Vec {
     return bitcast<real>(bitcast<u32>(v) ^ zero);
 }

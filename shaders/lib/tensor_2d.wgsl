@@ -28,7 +28,7 @@ fn vec_to(v: Vec) -> vec3<real> {
 fn mask_of(bits: u32) -> Mask {
     return (vec2<u32>(bits) & vec2<u32>(1u, 2u)) != vec2<u32>(0u);
 }
-// The same numbers, of which the compiler knows nothing if `zero` is a zero that it does not know.
+// The same numbers, hidden from the compiler: `zero` is always 0, but read from memory, so that nothing can be simplified.
 fn hidden(v: Vec, zero: u32) -> Vec {
     return bitcast<Vec>(bitcast<vec2<u32>>(v) ^ vec2<u32>(zero));
 }

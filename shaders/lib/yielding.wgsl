@@ -3,24 +3,25 @@
 #import strengths
 #import heats
 
-// Rounds of `increment` at most; most laws take three.
+// Rounds of Newton's method in `increment` at most; most laws take three.
 const RETURN_ROUNDS: u32 = 24u;
-// Rounding of a flow stress, over it: four distances from one number to the next.
+// Error of a flow stress, relative to it, that counts as rounding: four distances from one number to the next.
 const RETURN_ROUNDING: real = 4.8e-7;
-// Part of the highest growth that is tried where a step misses and nothing is known to be too little.
+// Part of the highest possible growth that is tried next where Newton's method has left its bounds and no lower bound is
+// known yet.
 const RETURN_PART: real = 1e-3;
 
-// What one step finds before it flows.
+// The state at the end of a step in which nothing has flowed yet.
 struct Trial {
     // Mises stress if nothing flowed.
     stress: real,
     strain: real,
     temperature: real,
-    // How fast it falls with the growth of the plastic strain, 3 mu.
+    // By how much the trial stress falls for each unit of growth of the plastic strain, 3 mu.
     stiffness: real,
     // Time that the step takes.
     step: real,
-    // Volume over reference volume that the stress is taken over.
+    // Volume over reference volume, by which work per volume becomes work per reference volume.
     volume: real,
 }
 
@@ -31,7 +32,8 @@ fn trial_rate(trial: Trial, growth: real) -> real {
     return 0.0;
 }
 
-// What the strength is asked with after a growth that ends at a flow stress; its work is the trapezoid of it.
+// The point at which the strength is asked after a growth over which the flow stress goes from `begin` to `end`: the plastic
+// work is the mean of the two times the growth.
 fn trial_point(body: Body, trial: Trial, growth: real, begin: real, end: real) -> Point {
     let temperature = trial.temperature + rise(body, 0.5 * (begin + end) * growth * trial.volume);
     return Point(trial.strain + growth, trial_rate(trial, growth), temperature);

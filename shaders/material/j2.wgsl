@@ -1,7 +1,7 @@
 // Strength of metals that harden: s0 + B k^n, k the equivalent plastic strain. Twin: src/material/j2.rs
 #import flow
 
-// The slope of a power at k = 0 is infinite, and here 0.
+// At k = 0 the slope of a power is infinite and 0 stands for it: see src/material/j2.rs.
 fn flow_j2(body: Body, at: Point) -> Flow {
     let own = j2_of(body);
     if own.hardening_exponent == 1.0 {

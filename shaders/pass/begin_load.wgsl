@@ -42,7 +42,8 @@ fn of_particle(a: u32) {
 #endif
 }
 
-// The last increment of what is free, and the prescribed one of what is held.
+// By how much a particle moves when a load step begins: a free one by its increment over the last load step, a held one by
+// the integral of its prescribed velocity.
 fn increment_of(a: u32, last: Vec) -> Vec {
 #if constraints
     if constraint[a] != 0u {

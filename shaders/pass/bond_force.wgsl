@@ -41,7 +41,7 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     let stiffness = hourglass_stiffness(a, own_body);
 #endif
     let count = neighbor_count[a];
-    // Sum of the weights alone: what a's own stress is multiplied with.
+    // `own` is the sum of the kernel gradients alone: a's own stress multiplies it once, after the loop.
     var own = Vec();
     var others = Vec();
     for (var k = 0u; k < count; k++) {

@@ -68,7 +68,7 @@ fn measure_of(a: u32) -> Measure {
     if determinant_mat(mat_identity() + gradient) <= 0.0 {
         fault = real(INVERTED);
     }
-    // By the bits: a compiler may take it that no number is infinite or undefined.
+    // The test looks at the bits, since a compiler may assume that no number is infinite or NaN and drop a comparison.
     if (bitcast<u32>(square + motion) & 0x7f800000u) == 0x7f800000u {
         fault = real(NOT_FINITE);
     }

@@ -79,7 +79,7 @@ fn bound_of(a: u32) -> vec4<real> {
     let moved: real = 0.0;
 #endif
     let speed = inner(velocity[a], velocity[a]);
-    // By the bits: a compiler may take it that no number is infinite or undefined.
+    // The test looks at the bits, since a compiler may assume that no number is infinite or NaN and drop a comparison.
     let exponent = bitcast<u32>(pull + moved + speed + compression) & 0x7f800000u;
     if exponent == 0x7f800000u {
         return vec4<real>(0.0, 0.0, 0.0, real(NOT_FINITE));
@@ -111,9 +111,9 @@ fn hidden_number(x: real) -> real {
 
 fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
     var next = before;
-    // The first call of a segment finds no step behind it.
+    // The first call of a segment comes before any step: it advances no clock and only finds the first step.
     if next.step > 0.0 {
-        // As compensated_add.
+        // The sum keeps its rounding error as in compensated_add.
         let corrected = next.step - next.elapsed_carry;
         let total = hidden_number(next.elapsed + corrected);
         next.elapsed_carry = hidden_number(total - next.elapsed) - corrected;
@@ -134,12 +134,12 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
     if step <= 0.0 {
         step = params.cfl / bound.x;
     }
-    // Less than this is rounding of the sum of steps, not time left.
+    // A remainder below this is the rounding error of the sum of steps, not time that is left.
     if next.fault != 0u || next.steps_left == 0u || left <= 1e-5 * step {
         next.running = 0u;
         return next;
     }
-    // The last two steps share what is left, so that none is a sliver.
+    // The last two steps share the time that is left, so that the last one is not much shorter than the others.
     if left <= step * 1.00001 {
         step = left;
     } else if left < 2.0 * step && params.fixed_step == 0.0 {

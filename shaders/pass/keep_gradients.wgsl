@@ -16,7 +16,7 @@ fn of_particle(a: u32, row: u32) {
     let center = center_of(a, row);
     let own = shape_of(a);
     kept_count[a] = center.count;
-    // Without a itself, from which nothing differs.
+    // The last node is particle a itself. It is left out: its displacement differs from a's own by nothing.
     for (var k = 0u; k < center.count; k++) {
         let node = node_at(center, k);
         kept_neighbors[k * params.count + a] = neighbors[k * params.chunk + row];

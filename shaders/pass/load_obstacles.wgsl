@@ -33,7 +33,7 @@ fn gather(local: u32, own: Vec) -> Vec {
     for (var k = 1u; k < 16u; k++) {
         sum += parts[k];
     }
-    // Before the next obstacle's parts are put there.
+    // All invocations must have read the sum before the next obstacle's parts overwrite it.
     workgroupBarrier();
     return sum;
 }

@@ -1,5 +1,5 @@
 // Distance of each facet from the surface that faces it, and what follows from it. A facet that presses on the other
-// surface tells so to those in its list. Twin: src/pass/measure_gap.rs
+// surface marks itself and the facets in its list as pressed. Twin: src/pass/measure_gap.rs
 #import facet_pair
 #import facet
 #if friction
@@ -50,7 +50,7 @@ fn of_facet(e: u32) {
     facet_gap[e] = gap;
     if gap >= 0.0 {
 #if friction
-        // The tangential spring comes off.
+        // The facet has lost touch: what its tangential spring held becomes heat.
         facet_heat[e] = 0.5 * stiffness * inner(slip_before, slip_before);
 #endif
         return;
@@ -94,7 +94,7 @@ fn tell(e: u32) {
 var<private> slip_before: Vec;
 #endif
 
-// As out of touch.
+// What the columns hold for a facet that is out of touch.
 fn leave_alone(e: u32) {
     facet_gap[e] = 0.0;
     facet_spread[e] = 0.0;

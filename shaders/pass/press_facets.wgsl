@@ -24,8 +24,8 @@
 @group(0) @binding(_) var<storage, read_write> facet_force: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> facet_moment: array<Mat>;
 
-// What acts on a facet: the force, that along which the normal would turn, and the derivative of the energy by F from
-// friction whose point is not the facet's.
+// What acts on a facet: the force, minus the derivative of the energy by the facet's normal, and the derivative of the energy
+// by F from friction that acts at a point other than the facet's.
 struct Load {
     force: Vec,
     turning: Vec,
@@ -67,7 +67,7 @@ fn sum_loads(e: u32, inverse: Mat) -> Load {
             continue;
         }
         let other = facet_normal[f];
-        // Less the derivatives by the distances along the normals.
+        // The force is minus the derivatives of the energy by the distances along the two normals.
         load.force += own.normal * (pulled * near.weight) - other * (pull * near.weight);
 #if !along_normals
         let along = inner(other, near.x) - facet_gap[e];

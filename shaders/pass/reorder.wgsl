@@ -10,7 +10,7 @@
 override words: u32;
 
 fn of_particle(i: u32) {
-    // Over a segment's end it copies all the same: what follows takes the destination without asking.
+    // The pass copies even when the segment is over: the host takes the destination for the field in any case.
     var place = i;
     if clock.running != 0u {
         place = cell_particles[i];

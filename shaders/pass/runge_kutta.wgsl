@@ -199,7 +199,7 @@ fn advance_deformation(a: u32) {
 }
 #endif
 
-// The same for a number.
+// Next state of a scalar, with the step's start and the sum of the stages' rates.
 struct NextScalar {
     state: real,
     start: real,

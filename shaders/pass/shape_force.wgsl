@@ -23,7 +23,7 @@ fn of_particle(a: u32, row: u32) {
     for (var k = 0u; k <= center.count; k++) {
         sum += pull(node_at(center, k));
     }
-    // What volume the particle has now for each of its reference volume.
+    // Present volume over reference volume, J.
 #if current
     let volume = 1.0 + volumetric_strain[a];
 #else
@@ -32,8 +32,8 @@ fn of_particle(a: u32, row: u32) {
     acceleration[a] = sum * (-volume / body_of(a).density);
 }
 
-// V_b sigma_b grad psi_a(x_b). Of an image, everything is mirrored: as much as to mirror the way to it and what comes
-// of it.
+// V_b sigma_b grad psi_a(x_b). For a mirror image, stress and gradient would all have to be mirrored. To mirror the separation
+// first and the resulting force afterwards gives the same.
 fn pull(node: Node) -> Vec {
     let from_a = seen(node.image, -node.x);
     let gradient = shape_gradient(shape_of(node.b), from_a, node.weight, node.slope);

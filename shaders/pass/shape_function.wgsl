@@ -5,7 +5,7 @@
 // beta = -M^-1 p, 1/alpha = m + beta . p, d beta/dx = -M^-1 (G + 1/alpha + p (x) beta),
 // d alpha/dx = -alpha^2 (s + (d beta/dx)^T p + m beta).
 //
-// Twin: src/pass/shape_function.rs and src/shape.rs
+// Twin: src/pass/shape_function.rs and src/shape_function.rs
 #import inverse
 #import shape_node
 

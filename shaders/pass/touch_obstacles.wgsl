@@ -36,7 +36,7 @@ struct Touch {
 }
 
 fn of_facet(e: u32) {
-    // Counted from 1.
+    // Index of the obstacle, plus 1; 0 for none.
     var found = 0u;
     var nearest = Nearest(0.0, Vec());
     for (var k = 0u; k < params.obstacle_count; k++) {
@@ -62,7 +62,7 @@ fn of_facet(e: u32) {
     facet_heat[e] = touch.heat;
 #endif
 #endif
-    // Out of touch as before: there is nothing to add, nor to take back.
+    // The facet was out of touch before and still is: there is no force to add, and no earlier one to set to zero.
     if found == 0u && facet_obstacle[e] == 0u {
         return;
     }

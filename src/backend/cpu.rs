@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// Steps a host state.
 pub struct Cpu<S: Space> {
     pub state: State<S>,
-    /// What the reference configuration fixes has been made.
+    /// Whether the passes of [`crate::step::prepare`] have run.
     prepared: bool,
     step: Vec<Call>,
 }
@@ -24,8 +24,8 @@ impl<S: Space> Cpu<S> {
         Self { step: step::step(&state.method), prepared: false, state }
     }
 
-    /// Keeps the distinct bonds, and makes what depends on them once more, so that it agrees with them to the last
-    /// digit.
+    /// Makes the table of distinct bonds, then runs the passes that correct gradients again: made with kernel values from the
+    /// table, the corrections agree with the sums of the steps to the last digit.
     fn tabulate(&mut self) {
         let state = &mut self.state;
         if state.method.bond_table {
@@ -44,7 +44,7 @@ impl<S: Space> Cpu<S> {
     }
 }
 
-/// Time that one call to `advance` may take before the run loop gets a look.
+/// Time that one call to `advance` may take, after which the run loop looks for an interrupt.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 impl<S: Space> Backend for Cpu<S> {
@@ -87,7 +87,7 @@ impl<S: Space> Backend for Cpu<S> {
     fn advance(&mut self) -> Result<Clock<f64>, String> {
         let begin = Instant::now();
         let step = self.step.clone();
-        // Among the workers, so that not every pass wakes them anew.
+        // The whole call runs on a worker thread, so that the pool stays awake from pass to pass.
         rayon::scope(|_| {
             while self.state.clock.running == 1 && begin.elapsed() < PATIENCE {
                 self.run(&step);
@@ -132,7 +132,7 @@ impl<S: Space> Backend for Cpu<S> {
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {
         let mut list = Vec::new();
         for call in calls {
-            // A pass that advances the clock would end the segment; every call sees the same state of the clock.
+            // The clock is set back for every call: a pass that advances it would soon end the segment.
             let clock = self.state.clock;
             let begin = processor_seconds();
             for _ in 0..repeats {

@@ -32,7 +32,7 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
         Choice::Auto => {
             let found = device::choose(device::Want::Auto, None)?;
             if found.is_none() {
-                // Once, however many scenes are checked.
+                // The sentence is printed once, however many scenes are checked.
                 static TOLD: Once = Once::new();
                 TOLD.call_once(|| eprintln!("no hardware GPU with Vulkan found: running on the CPU"));
             }

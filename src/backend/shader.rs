@@ -1,4 +1,4 @@
-//! Shader text for one method, and what naga reads out of it.
+//! Shader text for one method, and the bindings and constants that naga reads out of it.
 //!
 //! Sources are WGSL with four directives, each on a line of its own:
 //! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`, `smoothing`,
@@ -85,7 +85,7 @@ pub fn compose_from(registry: &Registry, pass: Pass, method: &Method) -> Result<
     composed(registry, pass.name(), pass.source(), pass.declaration().entry(), &choice)
 }
 
-/// The same for any text; `name` is for messages.
+/// [`compose`] for any text; `name` stands for the file in messages.
 ///
 /// # Panics
 /// As [`compose`].

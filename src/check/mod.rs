@@ -140,7 +140,7 @@ fn values(scene: &Scene, finished: &Finished, name: &str) -> Result<Vec<f64>, St
 
 fn statistic(values: &[f64], statistic: Statistic) -> f64 {
     let (first, last) = (values[0], values[values.len() - 1]);
-    // NaN must not pass for an extreme.
+    // A NaN makes the extreme NaN, which no tolerance admits; `max` and `min` alone would skip it.
     if values.iter().any(|v| v.is_nan()) {
         return f64::NAN;
     }

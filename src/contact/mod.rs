@@ -81,7 +81,7 @@ impl Laws {
 
 /// Number of the law [`colour_field`] in the table of pairs. Twin: `shaders/lib/params.wgsl`
 pub const COLOUR_FIELD: u32 = 100;
-/// Number of the law [`zones`]. Twin: as above.
+/// Number of the law [`zones`] in the table of pairs. Twin: `shaders/lib/params.wgsl`
 pub const ZONES: u32 = 101;
 
 #[cfg(test)]

@@ -1,19 +1,20 @@
-//! How a law says what it is. Each law declares in its own file its word and role, the numbers that it takes and what it
-//! reads of a particle and remembers; from that come the keys of a scene and the sentences of their errors, the table of
-//! numbers, the structure in WGSL, the fields, `lithosph list` and the samples that the parity tests take.
+//! The declaration of a law. Each law declares in its own file its word and role, the numbers that it takes, and what it reads
+//! of a particle and remembers. From the declaration follow the keys of a scene and the sentences of their errors, the table
+//! of numbers, the structure in WGSL, the fields, `lithosph list` and the samples that the parity tests take.
 
 use crate::fields::Field;
 
-/// What a law is for. A material has either a law that is whole by itself, or one law for each role that it needs.
+/// The part of a material that a law describes. A material has either a law that is whole by itself, or one law for each role
+/// that it needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
     /// Stress from the deformation gradient, by itself.
     Whole,
     /// The mean stress from the change of volume: equation of state.
     Pressure,
-    /// What resists a change of shape, and where it gives way.
+    /// What resists a change of shape, and the stress at which it yields.
     Strength,
-    /// What becomes of the temperature.
+    /// How the temperature changes.
     Heat,
 }
 
@@ -94,17 +95,17 @@ pub struct Number {
     pub key: &'static str,
     pub dimensions: Dimensions,
     pub range: Range,
-    /// What it is where a scene does not give it; None where it must.
+    /// The value where a scene gives none; None for a number that a scene must give.
     pub default: Option<f64>,
-    /// What tests take, where Young's modulus, the density, the spacing and a temperature are 1.
+    /// The value in tests, in which Young's modulus, the density, the spacing and the temperature are 1.
     pub sample: f64,
     pub about: &'static str,
 }
 
-/// What a strength is asked with beside the equivalent plastic strain.
+/// The state, beside the equivalent plastic strain, on which a strength depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reads {
-    /// Rate of the equivalent plastic strain: then it creeps, and has no equilibrium.
+    /// Rate of the equivalent plastic strain: such a strength creeps, so that a body has no equilibrium.
     Rate,
     Temperature,
 }
@@ -137,7 +138,7 @@ macro_rules! law {
         pub struct $Name<R> { $(#[doc = $sentence] pub $key: R,)* kind: std::marker::PhantomData<R> }
 
         impl<R: crate::tensor::Real> $Name<R> {
-            /// Those of a body that has this law.
+            /// The law's numbers, as a body that has this law holds them.
             #[inline(always)]
             #[allow(unused_mut, unused_variables, unused_assignments)]
             pub fn of(body: &crate::rows::Body<R>) -> Self {

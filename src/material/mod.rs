@@ -1,9 +1,9 @@
-//! What a material answers to deformation: one file a law, and here the list of them by their roles.
+//! The stress with which a material answers a deformation: one file a law, and here the list of laws by their roles.
 //!
 //! A material has a law that is whole by itself, or a pressure and, if it resists a change of shape, a strength, and if
 //! its strength asks for it, a heat. In the Eulerian formulation stress comes from rates: the mean stress from the
 //! pressure, the deviator hypoelastic. In the Total Lagrangian it is the first Piola-Kirchhoff stress of H = F - 1,
-//! written for small H in f32. Where a strength gives way, [`yielding`] finds how far. Twin: shaders/material/
+//! written in H so that f32 keeps small strains. Where a strength yields, [`yielding`] finds how far. Twin: shaders/material/
 //!
 //! A new law is its pair of files, `src/material/x.rs` and `shaders/material/x.wgsl`, and its word in the list below.
 
@@ -28,7 +28,7 @@ macro_rules! laws {
     ) => {
         $(pub mod $pressure;)* $(pub mod $strength;)* $(pub mod $heat;)* $(pub mod $whole;)*
 
-        /// Names the laws; one more than its number is what a body holds for a role, and 0 is none.
+        /// Names the laws. A body holds for each role [`Law::number`], which counts from 1, or 0 for none.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Law { $($Pressure,)* $($Strength,)* $($Heat,)* $($Whole,)* }
 
@@ -52,7 +52,7 @@ macro_rules! laws {
             }
         }
 
-        /// Energy of a change of volume per reference volume, of such a material.
+        /// Elastic energy per reference volume of a material made of roles, of its change of volume J - 1.
         pub fn stored_in_volume<R: Real>(body: &Body<R>, volume_change: R) -> R {
             match body.pressure {
                 $(number if number == Law::$Pressure.number() => $pressure::stored(body, volume_change),)*
@@ -60,7 +60,7 @@ macro_rules! laws {
             }
         }
 
-        /// What a strength bears at a point.
+        /// The Mises stress that a strength bears at a point, with its derivatives.
         #[inline(always)]
         pub fn flow<R: Real>(body: &Body<R>, at: &Point<R>) -> Flow<R> {
             match body.strength {
@@ -109,11 +109,11 @@ impl Law {
     pub fn of_role(role: Role) -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied().filter(move |law| law.role() == role)
     }
-    /// Stress depends on more than the deformation.
+    /// Whether stress depends on more than the present deformation.
     pub fn has_memory(self) -> bool {
         self.role() != Role::Heat && !self.declaration().remembers.is_empty()
     }
-    /// A strength that gives way.
+    /// Whether the law is a strength that yields.
     pub fn yields(self) -> bool {
         self.role() == Role::Strength && self.has_memory()
     }
@@ -161,7 +161,8 @@ const MAXWELL: u32 = Law::Maxwell.number();
 const ST_VENANT_KIRCHHOFF: u32 = Law::StVenantKirchhoff.number();
 
 /// First Piola-Kirchhoff stress of the deformation 1 + H. `memory` is the inelastic strain C_i - 1 of a material that
-/// remembers. This, [`relax`] and [`dissipated`] come to a shader as `src/backend/shader/laws.rs` writes them.
+/// remembers. The shaders' twins of [`first_piola`], [`relax`] and [`dissipated`] are no files: `src/backend/shader/laws.rs`
+/// writes their text for the laws of the scene.
 #[inline(always)]
 pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) -> S::Mat {
     match body.whole {

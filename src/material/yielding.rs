@@ -13,32 +13,34 @@ use super::{flow, rise};
 use crate::rows::Body;
 use crate::tensor::{Real, Space};
 
-/// Rounds of [`increment`] at most; most laws take three.
+/// Rounds of Newton's method in [`increment`] at most; most laws take three.
 const ROUNDS: usize = 24;
-/// Rounds that make q = sY at finite strain: each gains as many digits as the trial strain is small.
+/// Rounds that bring the Mises stress q to the flow stress sY at finite strain. Each round multiplies the error by about the
+/// elastic strain of the trial state, which is small where a metal yields.
 const FINITE_ROUNDS: usize = 5;
-/// Rounding of a flow stress, in distances from one number to the next.
+/// Error of a flow stress that counts as rounding, in units of the distance from one floating-point number to the next.
 const ROUNDING: f64 = 4.0;
-/// Parts of the highest growth that are tried where a step misses and nothing is known to be too little.
+/// Part of the highest possible growth that is tried next where Newton's method has left its bounds and no lower bound is
+/// known yet.
 const PART: f64 = 1e-3;
 
-/// What one step finds before it flows.
+/// The state at the end of a step in which nothing has flowed yet.
 struct Trial<R> {
     /// Mises stress if nothing flowed.
     stress: R,
     strain: R,
     temperature: R,
-    /// How fast it falls with the growth of the plastic strain, 3 mu.
+    /// By how much the trial stress falls for each unit of growth of the plastic strain, 3 mu.
     stiffness: R,
     /// Time that the step takes.
     step: R,
-    /// Volume over reference volume that the stress is taken over.
+    /// Volume over reference volume, by which work per volume becomes work per reference volume.
     volume: R,
 }
 
 impl<R: Real> Trial<R> {
-    /// What the strength is asked with after a growth of the plastic strain that ends at a flow stress. Its work is the
-    /// trapezoid of the flow stress.
+    /// The point at which the strength is asked after a growth of the plastic strain, over which the flow stress goes from
+    /// `begin` to `end`. The temperature rises by the heat of the plastic work, the mean of the two times the growth.
     #[inline(always)]
     fn point(&self, body: &Body<R>, growth: R, begin: R, end: R) -> Point<R> {
         Point {
@@ -107,14 +109,14 @@ pub fn mises<S: Space>(deviator: S::Sym) -> S::Real {
     (S::Real::of(1.5) * (S::trace(S::mat_mat(within, within)) + across)).sqrt()
 }
 
-/// What a particle of the Eulerian formulation comes to in a step.
+/// State of a particle of the Eulerian formulation after a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Yielded<Sym, R> {
     pub deviator: Sym,
     /// Growth of the equivalent plastic strain.
     pub growth: R,
-    /// Plastic work per reference volume, by the trapezoid of the flow stress over k, as the motion does its work by that
-    /// of the stress.
+    /// Plastic work per reference volume: the mean of the flow stress at the step's start and end times the growth of k. The
+    /// motion's work is counted by the same rule, so that energies add up.
     pub work: R,
 }
 
@@ -187,8 +189,8 @@ impl<R: Real> Invariants<R> {
 /// At finite strain: the memory after a step that ends at H.
 ///
 /// At fixed H the flow follows A(w) = (A + w)/rho with dk = q/(3 mu rho) dw. The step takes the geometric mean of the
-/// integrand's ends, which is exact for small strains: there q falls as 1/(1 + w) and by 3 mu dk, and this is the
-/// radial return. Each round goes on as if strains were small.
+/// integrand's ends, which is exact for small strains: there q falls as 1/(1 + w) and by 3 mu dk, and the step is the
+/// radial return. Each round corrects w by the step that would be exact if strains were small.
 pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>, step: S::Real) -> Memory<S> {
     if body.yield_stress == S::Real::of(0.0) {
         return memory;

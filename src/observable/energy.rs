@@ -22,7 +22,7 @@ fn obstacles(moment: &Moment) -> f64 {
     .sum()
 }
 
-/// Energy beside that of the material.
+/// Energy that is not stored in the material: of contact and of the hourglass term.
 fn stray(moment: &Moment, i: usize) -> f64 {
     moment.scalar(Field::HourglassEnergy, i) + moment.scalar(Field::ContactEnergy, i)
 }

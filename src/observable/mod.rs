@@ -214,7 +214,8 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
     if expect.source.is_empty() {
         return Err("needs a source: where does the number come from?".into());
     }
-    // A range beside a reference is that of a distance known to be too large; beside a value it is what is known to be seen.
+    // Beside a reference, the range is that of a distance that is known to be too large. Beside a value, the range is that of the
+    // number that is known to come out instead.
     let alone = expect.between.is_some() && expect.reference.is_none() && expect.value.is_none();
     let forms = [expect.value.is_some(), expect.reference.is_some(), alone];
     if forms.iter().filter(|&&f| f).count() != 1 {

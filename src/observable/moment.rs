@@ -56,13 +56,13 @@ pub fn needed(scene: &Scene, fields: &[Field]) -> Vec<Field> {
     fields.iter().filter_map(kept).collect()
 }
 
-/// The same, and what the scene has of fields that only some scenes have.
+/// The fields of [`needed`], and beside them those that only some scenes have, where this scene has them.
 pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
     let present = crate::step::fields(&scene.method);
     let mut list = needed(scene, fields);
     if fields.contains(&Field::VolumetricStrain) {
         list.extend([Field::DeviatoricStress, Field::InelasticStrain, Field::DissipatedEnergy]);
-        // With the velocity it is a total energy.
+        // Elastic energy and velocity together are asked for by the total energy, which counts these energies too.
         if fields.contains(&Field::Velocity) {
             list.extend([Field::HourglassEnergy, Field::ContactEnergy, Field::ObstacleVelocity]);
         }

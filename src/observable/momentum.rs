@@ -4,7 +4,7 @@ use super::{Moment, ObservableKind, Observer, Value};
 use crate::fields::Field;
 use glam::DVec3;
 
-/// Component along the observer's axis, or the length.
+/// Component of a vector along the observer's axis, or its length where the observer has none.
 pub fn component(vector: DVec3, observer: &Observer) -> f64 {
     observer.axis.map_or_else(|| vector.length(), |k| vector.to_array()[k])
 }

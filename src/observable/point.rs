@@ -5,7 +5,7 @@ use super::{Moment, ObservableKind, Observer, Value};
 use crate::fields::Field;
 use glam::DVec3;
 
-/// That of the nearest particle, carried over the way to the point by its displacement gradient.
+/// Displacement of the nearest particle, plus its displacement gradient times the separation from the particle to the point.
 fn displacement(moment: &Moment, observer: &Observer) -> f64 {
     let i = observer.particles[0];
     let start = moment.scene.particles[i].position;

@@ -21,10 +21,10 @@ fn restitution(table: &Table, typed: &Observe) -> Result<f64, String> {
     Ok(-relative(table, typed, tail)? / before)
 }
 
-/// Part of the speed that counts as not yet touched, and as touched no more.
+/// Bodies count as touching from when the speed falls below this part of the first one until it reaches this part of the last.
 const TOUCHED: f64 = 0.9;
 
-/// From where a speed has fallen to 0.9 of its first value to where it has reached 0.9 of its last one, turned back.
+/// Time of contact, from when a speed falls to 0.9 of its first value to when, turned round, it reaches 0.9 of its last one.
 fn contact_time(table: &Table, typed: &Observe) -> Result<f64, String> {
     let rows = table.of(typed)?;
     let (first, last) = (rows[0].1, -restitution(table, &Observe { over: None, ..typed.clone() })? * rows[0].1);

@@ -49,7 +49,8 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
 }
 
-/// The last increment of what is free, and the prescribed one of what is held.
+/// By how much a particle moves when a load step begins: a free one by its increment over the last load step, a held one by
+/// the integral of its prescribed velocity.
 #[inline(always)]
 fn increment<S: Space>(state: &State<S>, a: usize, mut last: S::Vec) -> S::Vec {
     if state.method.constraints && state.columns.constraint[a] != 0 {

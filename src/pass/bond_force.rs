@@ -53,7 +53,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     let columns = &state.columns;
-    // Sum of the weights alone: what a's own stress is multiplied with.
+    // `own` is the sum of the kernel gradients alone: a's own stress multiplies it once, after the loop.
     let (mut own, mut others) = (S::Vec::default(), S::Vec::default());
     let body = state.body(a);
     // Where nothing flows, both ends of a bond have the same stiffness.

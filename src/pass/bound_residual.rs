@@ -35,7 +35,7 @@ pub const PASS: Declaration = {
     }
 };
 
-/// Sums of m a.v, m a^2, m v^2 and a gap; then the largest force, force scale, rate c/h and fault.
+/// Four sums, m a.v, m a^2, m v^2 and an unused one, and four maxima: force, force scale, rate c/h and fault.
 type Measure<R> = [R; 8];
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {

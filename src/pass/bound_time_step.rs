@@ -78,7 +78,7 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
 fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
     let listed_once = !state.method.listed_again();
     let (params, clock) = (&state.params, &mut state.clock);
-    // The first call of a segment finds no step behind it.
+    // The first call of a segment comes before any step: it advances no clock and only finds the first step.
     if clock.step > S::Real::of(0.0) {
         let corrected = clock.step - clock.elapsed_carry;
         let total = clock.elapsed + corrected;
@@ -93,13 +93,13 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
     }
     let left = clock.duration - clock.elapsed;
     let step = if params.fixed_step > S::Real::of(0.0) { params.fixed_step } else { params.cfl / bound[0] };
-    // Less than this is rounding of the sum of steps, not time left.
+    // A remainder below this is the rounding error of the sum of steps, not time that is left.
     let nothing = S::Real::of(1e-5) * step;
     if clock.fault != 0 || clock.steps_left == 0 || left <= nothing {
         clock.running = 0;
         return;
     }
-    // The last two steps share what is left, so that none is a sliver.
+    // The last two steps share the time that is left, so that the last one is not much shorter than the others.
     clock.step = if left <= step * S::Real::of(1.00001) {
         left
     } else if left < S::Real::of(2.0) * step && params.fixed_step == S::Real::of(0.0) {

@@ -33,7 +33,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     }
 }
 
-/// Numbers of p.
+/// Number of components of p.
 fn terms<S: Space>() -> usize {
     S::DIMENSION + S::Sym::LENGTH
 }
@@ -78,7 +78,7 @@ fn moment<S: Space, B: Source<S>>(state: &State<S>, a: usize, h: S::Real) -> S::
     moment
 }
 
-/// A pivot below this part of the largest: the neighbours do not define the fit.
+/// Where a pivot is smaller than this fraction of the largest, the neighbours do not define the quadratic fit.
 const SMALLEST_PIVOT: f64 = 1e-3;
 
 /// Gauss-Jordan without exchange of rows: the matrix is symmetric and positive.

@@ -28,7 +28,7 @@ const CHUNK: usize = 256;
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     with_columns!(state, [contact_count, contacts] => {
-        // What a chunk has found lies together; few particles find any.
+        // The lists of a chunk are kept one after the other: few particles touch anything, so that most lists are empty.
         let mut found: Vec<Option<Vec<u32>>> = vec![None; contact_count.len().div_ceil(CHUNK)];
         let chunks = Wide { entries: &mut contact_count[..], width: CHUNK };
         write_rows((chunks, &mut found[..]), 1, |k, (counts, list)| *list = list_chunk(state, k * CHUNK, counts));

@@ -103,7 +103,8 @@ pub fn visit_cells<S: Space>(state: &State<S>, center: S::Vec, mut visit: impl F
     for z in z0..=z1 {
         for y in y0..=y1 {
             let row = (wrap(z, params.cells_z) * params.cells_y + wrap(y, params.cells_y)) * params.cells_x;
-            // Cells along x are contiguous, so a row is one range unless the box wraps along x.
+            // Cells that follow each other along x also do in memory, so that a row of cells is one range of particles,
+            // or two where the box is periodic and the row wraps along x.
             let (mut first, last) = (x0, x1);
             while first <= last {
                 let start = wrap(first, params.cells_x);

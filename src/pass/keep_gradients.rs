@@ -35,7 +35,7 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         *row = nodes(state, a, stage.reference).map(gradient).collect();
     });
     for (a, row) in rows.iter().enumerate() {
-        // The last is a itself, from which nothing differs.
+        // The last node is particle a itself. It is left out: its displacement differs from a's own by nothing.
         let entries: Vec<u32> = state.neighbors_of(a).to_vec();
         state.columns.kept_count[a] = entries.len() as u32;
         for (k, (&entry, &gradient)) in entries.iter().zip(row).enumerate() {

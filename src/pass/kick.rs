@@ -106,7 +106,7 @@ fn add_energy<S: Space>(state: &mut State<S>, part: S::Real, before: &[S::Vec], 
     }
 }
 
-/// From the velocity that the force saw to the middle of this kick, in kicks.
+/// Time from the velocity that the force used to the middle of this kick, in units of one kick.
 fn kicks_later(stage: Stage) -> f64 {
     if stage.time < 1.0 { 1.5 } else { 0.5 }
 }

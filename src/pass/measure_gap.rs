@@ -1,6 +1,6 @@
 //! Distance of each facet from the surface that faces it, and what follows from it: the derivatives of its energy,
-//! and friction. See [`crate::facet`]. A facet that presses on the other surface tells so to those in its list, whose
-//! own forces are zero otherwise. Twin: shaders/pass/measure_gap.wgsl
+//! and friction. See [`crate::facet`]. A facet that presses on the other surface marks itself and the facets in its list as
+//! pressed; the passes that follow skip all others, whose forces are zero. Twin: shaders/pass/measure_gap.wgsl
 
 use super::Stage;
 use super::declaration::{Declaration, FACETS, Runs, always, when};
@@ -85,7 +85,8 @@ fn found<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
     if state.columns.facet_contact_count[e] > 0 { measure(state, e) } else { Contact::default() }
 }
 
-/// Marks the facets that press and those that they press on, with some that are only near.
+/// Marks each facet that presses, and every facet in its list. Some of the marked ones are only near and feel nothing; to
+/// mark them too costs less than to sort them out.
 fn tell<S: Space>(state: &mut State<S>) {
     let total = state.params.facet_count as usize;
     let columns = &mut state.columns;
@@ -98,7 +99,7 @@ fn tell<S: Space>(state: &mut State<S>) {
     }
 }
 
-/// Where the loop puts what every contact has: gap, spread, pull, edge, pressure and energy.
+/// One row of the columns that the pass writes with or without friction: gap, spread, pull, edge, pressure and energy.
 type Measured<'c, R> = (((&'c mut R, &'c mut R), (&'c mut R, &'c mut R)), (&'c mut R, &'c mut R));
 
 impl<R: Copy, V> Contact<R, V> {
@@ -109,7 +110,7 @@ impl<R: Copy, V> Contact<R, V> {
 }
 
 /// The sums over the other surface: of weights, and of weights times distances, moves and normals; and the numbers of
-/// the last pair in the list.
+/// the last pair in the list, which stand for the whole surface.
 struct Sums<S: Space> {
     weight: S::Real,
     distance: S::Real,
@@ -146,13 +147,13 @@ fn measure<S: Space>(state: &State<S>, e: usize) -> ContactIn<S> {
     contact
 }
 
-/// Heat of a tangential spring that comes off.
+/// Heat of a facet that has lost touch: the energy that its tangential spring still held.
 fn let_go<S: Space>(state: &State<S>, e: usize, stiffness: S::Real) -> S::Real {
     let slip = state.columns.facet_slip.get(e).copied().unwrap_or_default();
     S::Real::of(0.5) * stiffness * S::inner(slip, slip)
 }
 
-/// The tangential spring: it grows with the way that the facet slips over the other surface.
+/// The tangential spring, which stretches by the distance that the facet slips over the other surface.
 fn rub<S: Space>(state: &State<S>, e: usize, sums: &Sums<S>, stiffness: S::Real, force: S::Real, contact: &mut ContactIn<S>) {
     let columns = &state.columns;
     let length = S::inner(sums.normal, sums.normal).sqrt();

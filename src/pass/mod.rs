@@ -170,12 +170,12 @@ impl Pass {
     pub fn entries(self) -> &'static [Entry] {
         self.declaration().entries
     }
-    /// Whether it sums the forces on the particles: by the number of such passes the cost of integrators is compared.
+    /// Whether the pass sums the forces on the particles. The number of such passes is the cost of an integrator's step.
     pub fn is_force(self) -> bool {
         matches!(self, Pass::Force | Pass::BondForce)
     }
-    /// Whether it exists for the sake of bodies that touch: by the time of such passes contact is priced. The cells that
-    /// a list of contacts is made from belong to it where no list of neighbours follows the particles.
+    /// Whether the pass serves contact alone; benchmarks add up the time of such passes. Sorting into cells counts as contact
+    /// where no neighbour list follows the particles, since then only the lists of contacts are made from cells.
     pub fn is_contact(self, method: &Method) -> bool {
         use Pass::*;
         let cells = !method.list_follows() && matches!(self, BinCells | ScanCells | FillCells | SortCells);

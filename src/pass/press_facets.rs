@@ -49,9 +49,9 @@ pub const PASS: Declaration = {
 #[derive(Clone, Copy, Default)]
 struct Load<V, M> {
     force: V,
-    /// Force along which the present normal would turn.
+    /// Minus the derivative of the energy by the facet's present normal.
     turning: V,
-    /// Derivative of the energy by F, from friction whose point is not the facet's.
+    /// Derivative of the energy by F, from friction that acts at a point other than the facet's.
     aside: M,
 }
 
@@ -110,7 +110,7 @@ fn press<S: Space>(state: &State<S>, (e, f): (usize, usize), facing: &Facing<S>,
     let (own, other) = (columns.facet_normal[e], columns.facet_normal[f]);
     let (pull, pulled) = (columns.facet_pull[e], columns.facet_pull[f]);
     let x = facing.x;
-    // Less the derivatives by the distances along the normals.
+    // The force is minus the derivatives of the energy by the distances along the two normals.
     load.force += own * (pulled * facing.weight) - other * (pull * facing.weight);
     if state.method.gap == Some(GapForm::AlongNormals) {
         return;

@@ -68,7 +68,7 @@ fn next<R: Real, T: Linear<R>>(now: T, start: &mut T, sum: &mut T, rate: T, step
     (*start + increment, increment)
 }
 
-/// The same for scalars.
+/// [`advance`] for a column of scalars.
 fn advance_scalar<R: Real>(column: &mut [R], start: &mut [R], sum: &mut [R], rate: &[R], step: R, stage: Stage) {
     use crate::tensor::Tuple;
     for a in 0..column.len() {
@@ -91,7 +91,7 @@ pub fn run<S: Space>(state: &mut State<S>, stage: Stage) {
         step,
         stage,
     );
-    // Empty unless the deformation gradient is a state of its own.
+    // These columns are empty unless the deformation gradient is integrated as a state of its own.
     if !p.displacement_gradient_rate.is_empty() {
         let rate = &p.displacement_gradient_rate;
         advance(

@@ -46,13 +46,13 @@ fn sum<S: Space>(state: &State<S>, a: usize, reference: bool) -> S::Vec {
     for node in nodes(state, a, reference) {
         sum += pull(state, &node);
     }
-    // What volume the particle has now for each of its reference volume.
+    // Present volume over reference volume, J.
     let volume = if reference { S::Real::of(1.0) } else { S::Real::of(1.0) + state.columns.volumetric_strain[a] };
     sum * (-volume / state.body(a).density)
 }
 
-/// V_b sigma_b grad psi_a(x_b). Of an image, everything is mirrored: as much as to mirror the way to it and what
-/// comes of it.
+/// V_b sigma_b grad psi_a(x_b). For a mirror image, stress and gradient would all have to be mirrored. To mirror the separation
+/// first and the resulting force afterwards gives the same.
 #[inline(always)]
 fn pull<S: Space>(state: &State<S>, node: &Node<S>) -> S::Vec {
     let from_a = seen(state, node.image, node.x * S::Real::of(-1.0));

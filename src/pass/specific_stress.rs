@@ -94,7 +94,7 @@ fn tensile_part<S: Space>(stress: S::Sym) -> S::Sym {
     S::sym_part(S::mat_mat(S::mat_mat(axes, kept), S::transpose(axes)))
 }
 
-/// One rotation in the plane of axes p and q that clears the component (p, q).
+/// One Jacobi rotation in the plane of the axes p and q, after which the component (p, q) is 0.
 #[inline(always)]
 fn jacobi<S: Space>(m: &mut S::Mat, axes: &mut S::Mat, p: usize, q: usize) {
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));

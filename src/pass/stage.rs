@@ -1,4 +1,4 @@
-//! What tells calls of the same pass in one step apart.
+//! Numbers by which calls of the same pass within one step differ.
 
 /// Numbers that tell calls of the same pass in one step apart; `override` constants of the shader.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Stage {
     pub last: bool,
     /// Part of the step that a kick or a drift takes.
     pub part: f64,
-    /// Particles are sorted and listed where they are in the reference configuration.
+    /// True: the pass sorts, lists or sums over the positions of the reference configuration; false: over the present ones.
     pub reference: bool,
 }
 

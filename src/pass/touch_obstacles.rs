@@ -78,7 +78,7 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
 #[inline(always)]
 fn put<S: Space>(state: &State<S>, e: usize, row: Row<'_, S>, slip: S::Vec) -> TouchIn<S> {
     let touch = touch(state, e, slip);
-    // Out of touch as before: there is nothing to add, nor to take back.
+    // The facet was out of touch before and still is: there is no force to add, and no earlier one to set to zero.
     if touch.obstacle == 0 && *row.obstacle == 0 {
         return touch;
     }
@@ -103,7 +103,7 @@ struct Row<'c, S: Space> {
     energy: &'c mut S::Real,
 }
 
-/// The same as the loop gives it.
+/// One row of the columns that the pass writes, as the loop hands it over.
 type Written<'c, S> = (
     ((&'c mut u32, &'c mut <S as Space>::Vec), (&'c mut <S as Space>::Vec, &'c mut <S as Space>::Mat)),
     (&'c mut <S as Space>::Real, &'c mut <S as Space>::Real),
@@ -161,7 +161,7 @@ fn touch<S: Space>(state: &State<S>, e: usize, slip: S::Vec) -> TouchIn<S> {
     touch
 }
 
-/// The tangential spring, which the facet's way over the obstacle stretches.
+/// The tangential spring, which stretches by the distance that the facet slips over the obstacle.
 fn rub<S: Space>(
     state: &State<S>,
     (e, k): (usize, usize),

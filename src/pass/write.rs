@@ -1,14 +1,15 @@
 //! The loop of the twins: rows of the columns that a pass writes, on all cores.
 //!
-//! A pass is compiled anew for each space, and a parallel iterator would be for each loop of each of these: most of the
-//! library was such glue. So the halving below is generic only over what the columns hold, it reaches the loop's body
-//! through a pointer, once a block of rows, and [`fork`] alone knows the threads.
+//! A pass is compiled once for each space, and a parallel iterator would be compiled once more for each loop of each pass: this
+//! made up most of the library. The halving below is therefore generic only over what the columns hold. It calls the loop's
+//! body through a pointer, once for each block of rows, and only [`fork`] knows about threads.
 
 use crate::tensor::Space;
 
-/// Rows of one task: few enough to balance two cores on a thousand particles, enough to hide the scheduling.
+/// Smallest number of rows of a task: few enough to balance two cores on a thousand particles, and enough for the work to
+/// outweigh the scheduling.
 pub(crate) const GRAIN: usize = 128;
-/// Tasks for each core: a core that is done early finds another.
+/// Tasks for each core, so that a core that is done early finds another task.
 const TASKS: usize = 8;
 
 /// Columns that are written together, row by row.
@@ -141,7 +142,8 @@ fn fork(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
 
-/// Sum that hands back what rounding dropped. The shader hides the intermediate sum from the optimiser.
+/// Adds an increment to a sum and keeps the rounding error in `carry`, to be taken off the next increment (Kahan 1965). The
+/// shader's twin must hide the intermediate sum from the compiler, which would simplify the error to 0.
 #[inline(always)]
 pub(crate) fn compensated_add<S: Space>(sum: &mut S::Vec, carry: &mut S::Vec, increment: S::Vec) {
     let corrected = increment - *carry;

@@ -143,7 +143,7 @@ fn series_names(observers: &[Observer]) -> Vec<&String> {
     observers.iter().filter(|o| matches!(o.kind.value, Value::Series(_))).map(|o| &o.name).collect()
 }
 
-/// A run that is told to stay off the GPU paints there neither.
+/// What paints the pictures. A run that is told not to use the GPU paints on the CPU too.
 fn painter(options: &Options) -> Result<Painter, String> {
     match options.choice {
         Choice::Cpu | Choice::Cpu32 => Ok(Painter::Splat),

@@ -61,7 +61,7 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
     if !options.dry {
         files::refuse_existing(scene, options).map_err(Stop::Refused)?;
     }
-    // Before the folder is made: a backend that cannot be had leaves no trace.
+    // The backend is opened before the folder is made, so that a run without a backend leaves no folder behind.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     run_on(scene, options, backend)
 }
@@ -176,7 +176,7 @@ impl<'a> Run<'a> {
         frame_fields.extend(files::fields_stored(scene));
         frame_fields.sort_unstable();
         frame_fields.dedup();
-        // Hidden by itself where stderr is no terminal.
+        // The bar hides itself where stderr is no terminal.
         let bar = if options.quiet { ProgressBar::hidden() } else { ProgressBar::new(1000) };
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta_precise} left") {
             bar.set_style(style);

@@ -8,10 +8,10 @@ use crate::step;
 use serde_json::json;
 use std::time::Instant;
 
-/// Began with the run's first step, when the backend was open.
+/// Measures wall and processor time from the run's first step, when the backend is open already.
 pub struct Stopwatch {
     begin: Instant,
-    /// Of this process before.
+    /// Processor seconds that this process had used before the run.
     processor: f64,
 }
 
@@ -26,16 +26,16 @@ impl Stopwatch {
 pub struct Summary {
     pub device: String,
     pub particles: usize,
-    /// Mean over particles at the end, within the list's reach.
+    /// Mean number of neighbours within the list's reach over all particles, at the end.
     pub neighbors: f64,
     pub steps: u32,
     pub lists_built: u32,
     pub passes: Vec<&'static str>,
     pub fields: Vec<&'static str>,
     pub bytes: u64,
-    /// Of wall time.
+    /// Seconds of wall time.
     pub seconds: f64,
-    /// On all threads of this process, a software driver's too.
+    /// Processor seconds on all threads of this process, those of a software driver included.
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,

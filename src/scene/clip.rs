@@ -12,7 +12,8 @@ use rayon::prelude::*;
 /// stand close to its neighbours and shorten the time step of the whole body.
 pub const SLIVER: f64 = 0.4;
 
-/// What rounding leaves in a cell that the shape only touches, as a share of a full one.
+/// Volume, as a share of a full cell, below which a cell counts as empty: rounding errors leave as much where the shape only
+/// touches the cell.
 const NOTHING: f64 = 1e-12;
 
 /// Points across a face at which two cells are tested for a common face.

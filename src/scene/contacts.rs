@@ -12,11 +12,11 @@ fn zones(file: &File) -> Option<&Zones> {
     file.contact.iter().find_map(|contact| contact.zones.as_ref())
 }
 
-/// Most neighbours of a surface particle, and of a corner.
+/// The largest number of neighbours that a particle on the surface has, and the largest that one at a corner has.
 pub(super) fn surface_counts(scene: &Scene) -> [u32; 2] {
     let Some(zones) = zones(&scene.file) else { return [0; 2] };
     let most = f64::from(scene.most_supported());
-    // A share that is met exactly counts.
+    // A particle whose number of neighbours is exactly the share counts as on the surface; rounding must not exclude it.
     [zones.surface, zones.corner].map(|share| (share * most + 1e-9) as u32)
 }
 
@@ -31,7 +31,8 @@ pub(super) fn laws(file: &File) -> Laws {
     Laws { potentials, colour_field, zones }
 }
 
-/// Contact between bodies a and b; the kernel sums between them have been looked at, with the bodies' names.
+/// The table of contact between bodies a and b. The names of the bodies and the kernel sums between them have been checked
+/// before.
 pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
     let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
     for (k, contact) in file.contact.iter().enumerate() {
@@ -42,10 +43,12 @@ pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
             other.between == contact.between || other.between == [b.clone(), a.clone()]
         };
         refuse.unless(!file.contact[..k].iter().any(same), &path, || {
-            format!("bodies `{}` and `{}` touch in one way: name them once", contact.between[0], contact.between[1])
+            format!("two tables [[contact]] are for `{}` and `{}`: name them once", contact.between[0], contact.between[1])
         })?;
         let laws = [contact.potential.is_some(), contact.colour_field.is_some(), contact.zones.is_some()];
-        refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || "two bodies touch by one law".into())?;
+        refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || {
+            "two bodies touch by one law: name only one of potential, colour_field and zones".into()
+        })?;
         if laws.contains(&true) {
             may_touch(file, &path, refuse)?;
         }
@@ -59,14 +62,16 @@ pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
                 "in the Eulerian formulation a law of contact takes the kernel's place: name kernel = 0 beside it".into()
             })?;
             let free = table[a][b].range == 0.0;
-            refuse.unless(free, &path, || format!("bodies `{}` and `{}` touch by one law", bodies[a].name, bodies[b].name))?;
+            refuse.unless(free, &path, || {
+                format!("another [[contact]] has a law for the bodies `{}` and `{}` already", bodies[a].name, bodies[b].name)
+            })?;
             (table[a][b], table[b][a]) = (pair, pair);
         }
     }
     Ok(table)
 }
 
-/// What two bodies are to each other, where the contact names a law.
+/// The row of the table of pairs for two bodies whose contact names a law.
 fn pair_of(
     file: &File,
     bodies: &[SceneBody],
@@ -83,13 +88,15 @@ fn pair_of(
     contact.zones.as_ref().map(|zones| by_zones(file, both, zones, &["contact", at, "zones"], refuse)).transpose()
 }
 
-/// What every law of contact asks of the scene.
+/// Refuses a scene that no law of contact works in.
 fn may_touch(file: &File, path: &[&str], refuse: &Refuse) -> Result<(), String> {
     let kind = file.formulation.kind;
     refuse.unless(kind != Formulation::CorrectedKernel, path, || {
-        "bodies touch where formulation.kind is `total_lagrangian` or `eulerian`".into()
+        "a law of contact needs formulation.kind `total_lagrangian` or `eulerian`".into()
     })?;
-    refuse.unless(file.symmetry.is_empty(), path, || "contact does not see mirror images: no [[symmetry]]".into())
+    refuse.unless(file.symmetry.is_empty(), path, || {
+        "contact does not see mirror images: a scene with a law of contact takes no [[symmetry]]".into()
+    })
 }
 
 fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(), String> {
@@ -100,7 +107,7 @@ fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(
     Ok(())
 }
 
-/// Mean spacing, and the lower of the moduli.
+/// Mean spacing of two bodies, and the lower of their Young's moduli.
 fn scales([a, b]: [&SceneBody; 2]) -> (f64, f64) {
     (0.5 * (a.spacing + b.spacing), a.material.youngs_modulus().min(b.material.youngs_modulus()))
 }
@@ -145,7 +152,8 @@ fn by_colour_field(
     Ok(ContactPair { law: COLOUR_FIELD, strength, range, threshold, ..ContactPair::default() })
 }
 
-/// Surfaces and normals are those of a body, whatever it touches, so their options are the scene's.
+/// A body has one surface and one set of normals, whatever it touches. All zones of a scene must therefore have the same
+/// options.
 fn by_zones(
     file: &File,
     both: [&SceneBody; 2],

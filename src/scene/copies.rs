@@ -5,7 +5,7 @@ use super::file::{self, Copies, File};
 use super::shape::{Coordinates, Shape};
 use glam::DVec3;
 
-/// More bodies than this are a slip: the tables of pairs grow with the square.
+/// More bodies than this are taken for a typing error: the tables of pairs of bodies grow with the square of the number.
 const MOST: u64 = 10_000;
 
 impl Copies {

@@ -30,7 +30,7 @@ pub struct File {
     /// Particle spacing of every body that names none.
     pub spacing: f64,
     pub duration: f64,
-    /// Small enough to run with the tests.
+    /// True for a scene, or in a variant, that is small enough to run with the tests.
     #[serde(default)]
     pub ci: bool,
     pub body: Vec<BodyTable>,
@@ -219,8 +219,9 @@ pub struct FormulationTable {
     /// Strength of the hourglass energy of the Total Lagrangian formulation, over Young's modulus; 0.5 unless
     /// given, 0.1 where a body yields.
     pub hourglass: Option<f64>,
-    /// Total Lagrangian on the CPU: look bonds up among the distinct ones, three times as fast, instead of evaluating
-    /// each anew, which takes less memory where there is no lattice. A GPU always does the latter.
+    /// Total Lagrangian on the CPU: true looks each bond up among the distinct bonds, which is three times as fast; false
+    /// evaluates the kernel anew at each bond, which takes less memory where particles lie on no lattice. A GPU always
+    /// evaluates anew.
     pub bond_table: Option<bool>,
     /// Corrected kernel: Liu's full correction, or the bare kernel; true unless given.
     pub correction: Option<bool>,
@@ -399,7 +400,7 @@ fn default_corner() -> f64 {
 pub struct SurfaceGap {
     #[serde(default)]
     pub form: GapForm,
-    /// Pressure over depth, over Young's modulus over the spacing.
+    /// Pressure over depth, as a multiple of Young's modulus over the spacing; 2 unless given.
     #[serde(default = "default_stiffness")]
     pub stiffness: f64,
     /// Distance over which the other surface is smoothed, in spacings.
@@ -450,7 +451,7 @@ pub struct ObstacleTable {
     pub velocity: Option<Coordinates>,
     /// Times and factors of a prescribed velocity, linear between, constant outside.
     pub course: Option<Vec<[f64; 2]>>,
-    /// Makes it move as the bodies push it. It does not turn.
+    /// Mass of an obstacle that the bodies push; without one its motion is prescribed. No obstacle turns.
     pub mass: Option<f64>,
     /// Pressure over depth, over Young's modulus over the spacing of the body that it touches.
     #[serde(default = "default_stiffness")]
@@ -533,7 +534,7 @@ pub struct Time {
     pub integrator: Integrator,
     /// Time step over h/c.
     pub cfl: f64,
-    /// Fixed time step instead.
+    /// A fixed time step, in place of the one that `cfl` gives.
     pub step: Option<f64>,
 }
 
@@ -628,12 +629,13 @@ pub struct Observe {
     pub of: Option<String>,
     /// A second one: the divisor of a ratio, what is taken off a swinging series, the other coordinate of a trace.
     pub over: Option<String>,
-    /// Times between which it is found.
+    /// Times between which the observable is found.
     pub between: Option<[f64; 2]>,
     /// Distance in spacings, speed, depth at which an indenter first touches, or whatever the kind takes.
     pub distance: Option<f64>,
-    /// Value whose crossings make a period, or that another series must reach; share of load over stiffness by which a
-    /// surface sinks outside a contact, 0.75 unless given.
+    /// Two meanings, by kind. For a period, for `value_at` and for `zone`: a value, in the unit of the series or field, that
+    /// is crossed, reached or exceeded. For the depth of an indentation's contact: a factor without unit, by which
+    /// load/stiffness times it is the depth that the surface sinks outside the contact, 0.75 unless given.
     pub level: Option<f64>,
     /// Radius of a ball that indents.
     pub radius: Option<f64>,
@@ -657,14 +659,14 @@ pub struct Expect {
     /// Column of the abscissa (time, or position for a profile) and of the ordinate, or of both coordinates of a trace.
     pub columns: Option<Vec<String>>,
     pub norm: Option<Norm>,
-    /// Range of a number that is known to miss, beside it perhaps the value that is true; or with a reference of the
-    /// distance from it.
+    /// Range in which the number lies that a method is known to get wrong; with a `reference`, the range of the distance from
+    /// it. `value` may name the truth beside it. Such a row prints as a known miss.
     pub between: Option<[f64; 2]>,
     pub because: Option<String>,
     /// How one number is made of a series: final unless given.
     pub statistic: Option<Statistic>,
     pub source: String,
-    /// Holds for this variant only.
+    /// The one variant for which the expectation holds; all unless given, `none` for the scene without a variant.
     pub variant: Option<String>,
 }
 
@@ -707,6 +709,6 @@ pub struct Stability {
     pub deformation: Option<Vec<Vec<f64>>>,
     /// By how much bonds with a part along each axis are weakened, from 0, whole, to 1, cut.
     pub damage: Option<Coordinates>,
-    /// The gradient correction stays that of whole bonds.
+    /// True keeps the gradient correction of whole bonds; false makes it from the damaged ones.
     pub whole_correction: bool,
 }

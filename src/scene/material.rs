@@ -28,20 +28,20 @@ pub struct RoleTable {
     pub numbers: BTreeMap<String, f64>,
 }
 
-/// What is added to the yield stress of `j2` at the equivalent plastic strain k.
+/// The stress that hardening adds to the yield stress of `j2` at the equivalent plastic strain k.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Hardening {
-    /// Modulus times k.
+    /// A modulus (stress), times k.
     Linear(f64),
     /// coefficient k^exponent
     Power { coefficient: f64, exponent: f64 },
 }
 
-/// Key of the power of `hardening`, which is typed as a part of it.
+/// Number of the law `j2` that has no key of its own: it is typed as `exponent` inside `hardening`.
 const EXPONENT: &str = "hardening_exponent";
 const HARDENING: &str = "hardening";
-/// A fluid has a pressure alone.
+/// Word of the short form for a material that has a pressure and no strength.
 const FLUID: &str = "fluid";
 const MODULI: [&str; 4] = ["youngs_modulus", "poisson_ratio", "bulk_modulus", "shear_modulus"];
 
@@ -80,7 +80,7 @@ static KEYS_OF_LAWS: LazyLock<Vec<&[&str]>> = LazyLock::new(|| {
 static WORDS_OF_ROLES: LazyLock<Vec<&[&str]>> =
     LazyLock::new(|| Role::ALL.iter().map(|&role| leaked(Law::of_role(role).map(Law::word))).collect());
 
-/// The next value of a map goes to the numbers under a key; `hardening` makes two.
+/// Reads the next value of a map into the numbers, under its key. `hardening` makes two numbers, factor and exponent.
 fn number<'de, A: MapAccess<'de>>(map: &mut A, key: &str, numbers: &mut BTreeMap<String, f64>) -> Result<(), A::Error> {
     if key != HARDENING {
         numbers.insert(key.into(), map.next_value()?);
@@ -204,7 +204,7 @@ impl MaterialTable {
         self.numbers.get(key).copied()
     }
 
-    /// Hardening is typed.
+    /// Whether the material's table has the key `hardening`.
     pub fn hardens(&self) -> bool {
         self.numbers.contains_key(HARDENING)
     }
@@ -285,12 +285,12 @@ impl Material {
         self.strength.is_some_and(Law::yields)
     }
 
-    /// Flows on under any load, so that it has no equilibrium.
+    /// Whether the material flows on under any load, and so has no equilibrium.
     pub fn creeps(&self) -> bool {
         self.whole == Some(Law::Maxwell) || self.strength.is_some_and(|law| law.reads(Reads::Rate))
     }
 
-    /// The numbers of a law to their places.
+    /// Puts the typed numbers of a law, or their defaults, into the places of its role.
     fn fill(&mut self, typed: &MaterialTable, law: Law) -> Result<(), String> {
         let apart = typed.roles.get(law.role().word());
         let given = apart.map_or(&typed.numbers, |table| &table.numbers);
@@ -300,7 +300,7 @@ impl Material {
         Ok(())
     }
 
-    /// What the laws of the material ask of each other.
+    /// Refuses laws that do not go together, and numbers that no law of the material takes.
     fn check(&self, typed: &MaterialTable) -> Result<(), String> {
         let short = if typed.roles.contains_key(Role::Strength.word()) { None } else { self.whole.or(self.strength) };
         let takes = |law: Law, key: &str| law.declaration().numbers.iter().any(|number| number.key == key);
@@ -321,10 +321,10 @@ impl Material {
             ));
         }
         if self.heat.is_some() && !self.yields() {
-            return Err("has a heat, but no strength that gives way and would make any".into());
+            return Err("has a heat, but no strength that yields, so that no plastic work makes heat".into());
         }
         if self.yields() && self.row().yield_stress <= 0.0 {
-            return Err("bears no stress before it flows: its strength must be above 0 there".into());
+            return Err("has a strength of 0 before any plastic flow: its numbers must give a yield stress above 0".into());
         }
         Ok(())
     }
@@ -353,7 +353,7 @@ impl Material {
             row = row.with(law, &[]);
         }
         if self.yields() {
-            // At a rate of one: at rest, a strength that creeps may bear nothing.
+            // Asked at a plastic strain rate of 1/time, since a strength that creeps may bear no stress at rest.
             let at = Point { strain: 0.0, rate: 1.0, temperature: self.temperature() };
             row.yield_stress = material::flow(&row, &at).stress;
         }

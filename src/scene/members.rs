@@ -9,7 +9,7 @@ use glam::DVec3;
 #[derive(Debug, Clone)]
 pub struct SceneBody {
     pub name: String,
-    /// Name that it shares with its copies, or its own.
+    /// Name that the body shares with its copies, or its own name if it has none.
     pub group: String,
     pub spacing: f64,
     pub smoothing_length: f64,
@@ -24,10 +24,10 @@ pub struct SceneBody {
 #[derive(Debug, Clone, Copy)]
 pub struct Particle {
     pub body: u32,
-    /// Boundary condition plus 1, or 0.
+    /// Index of the boundary condition that holds the particle, plus 1; 0 if it is free.
     pub constraint: u32,
     pub position: DVec3,
-    /// Unstressed.
+    /// Volume when unstressed (area in 2D, length in 1D).
     pub volume: f64,
     pub velocity: DVec3,
 }
@@ -37,11 +37,11 @@ pub struct Particle {
 pub struct SceneObstacle {
     pub name: String,
     pub shape: Obstacle<f64>,
-    /// At the start, or throughout where it is prescribed.
+    /// Velocity at the start, or for the whole run where it is prescribed.
     pub velocity: DVec3,
-    /// 0 where the motion is prescribed.
+    /// 1/mass; 0 for an obstacle whose motion is prescribed.
     pub inverse_mass: f64,
-    /// Index among the constraints of what prescribes its velocity.
+    /// Index of the constraint that prescribes the obstacle's velocity.
     pub condition: Option<usize>,
     /// How it touches each body.
     pub pairs: Vec<FacetPair<f64>>,

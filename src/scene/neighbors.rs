@@ -6,7 +6,7 @@ use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Rounding in f32 may put a pair at the very end of the reach inside.
+/// Factor on the reach: in f32, rounding may put a pair inside that lies exactly at the end of the reach in f64.
 const ROUNDING: f64 = 1.0 + 1e-5;
 
 impl Scene {

@@ -1,4 +1,4 @@
-//! What a scene that yields cannot have beside it.
+//! Refuses what a scene with a body that yields cannot have.
 
 use super::SceneBody;
 use super::file::File;
@@ -15,10 +15,10 @@ pub(super) fn check(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
     })?;
     let heats = bodies.iter().any(|body| body.material.heat == Some(Law::Adiabatic));
     refuse.unless(file.quasi_static.is_none() || !heats, &["quasi_static"], || {
-        "the heat `adiabatic` comes of plastic work step by step in time, and a quasi_static scene has none".into()
+        "the heat `adiabatic` follows plastic work step by step in time, and a quasi_static scene has no time".into()
     })?;
     let adds_up = file.formulation.dissipated_energy;
     refuse.unless(file.quasi_static.is_none() || !adds_up, &["formulation", "dissipated_energy"], || {
-        "dissipated_energy adds up plastic work step by step in time, and a quasi_static scene has none".into()
+        "dissipated_energy adds up plastic work step by step in time, and a quasi_static scene has no time".into()
     })
 }

@@ -1,4 +1,4 @@
-//! What a scene that seeks equilibrium cannot have beside it.
+//! Refuses what a scene that seeks equilibrium cannot have.
 
 use super::SceneBody;
 use super::file::{File, QuasiStatic};
@@ -39,7 +39,7 @@ fn numbers(typed: &QuasiStatic, refuse: &Refuse) -> Result<(), String> {
     refuse.unless(few, &["quasi_static", "load_steps"], || {
         format!("load_steps must be 1 to {MOST_OUTPUTS:e}, found {}", typed.load_steps)
     })?;
-    // Below this not even f64 tells forces from rounding.
+    // Below this residual, forces cannot be told from rounding errors even in f64.
     refuse.unless((1e-12..1.0).contains(&typed.residual), &["quasi_static", "residual"], || {
         format!("residual must lie between 1e-12 and 1, found {:e}", typed.residual)
     })?;

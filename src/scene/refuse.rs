@@ -24,5 +24,5 @@ impl Refuse<'_> {
     }
 }
 
-/// A slip in the unit of time is refused at once instead of filling the memory with rows.
+/// Most rows of a series. A scene with more is taken for an error in the unit of time, and refused before it fills the memory.
 pub(super) const MOST_OUTPUTS: f64 = 1e6;

@@ -59,7 +59,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     })
 }
 
-/// Single numbers that must lie in a range.
+/// Refuses single numbers that lie outside their range.
 fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     refuse.unless((1..=3).contains(&file.dimension), &["dimension"], || {
@@ -88,7 +88,7 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     refuse.unless(!file.body.is_empty(), &["body"], || "a scene needs at least one [[body]]".into())
 }
 
-/// Intervals and sizes of what is written.
+/// Refuses intervals and sizes of output that cannot be.
 fn outputs(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(series) = file.output.series {
         refuse.unless(series > 0.0 && series.is_finite(), &["output", "series"], || {
@@ -272,7 +272,7 @@ fn constraints(
     Ok(list)
 }
 
-/// Axes held, and velocity or acceleration.
+/// The axes along which a boundary condition prescribes the velocity, and that velocity, or else an acceleration.
 fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3], [f64; 3]), String> {
     let (mut prescribed, mut vector) = ([false; 3], [0.0; 3]);
     match (&typed.fixed, &typed.velocity, &typed.force) {
@@ -301,7 +301,7 @@ fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3
 }
 
 fn coupling(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
-    // Through the reference configuration, bodies have nothing to do with each other.
+    // Where kernel sums run over the reference configuration, bodies share no bonds: their weight is 0.
     let f = &file.formulation;
     let reference = f.kind == Formulation::TotalLagrangian || f.configuration == Some(Configuration::Reference);
     let apart = if reference { 0.0 } else { 1.0 };
@@ -428,7 +428,7 @@ fn rubs(file: &File) -> bool {
     gaps.chain(file.obstacle.iter().map(|obstacle| obstacle.friction)).any(|friction| friction > 0.0)
 }
 
-/// What belongs to one formulation and not to the other.
+/// Refuses options that belong to a formulation other than the scene's.
 fn lagrangian_only(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<(), String> {
     let f = &file.formulation;
     let lagrangian = f.kind == Formulation::TotalLagrangian;

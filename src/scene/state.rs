@@ -10,15 +10,17 @@ use crate::step;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
 
-/// Cells may outnumber particles this many times before they are made larger.
+/// Largest number of cells over particles: beyond it cells are made larger.
 const CELLS_PER_PARTICLE: usize = 4;
 
 /// Particles of one body touch only if they were more than so many spacings apart.
 const CONTACT_APART: f64 = 3.0;
-/// Margin of the list of contacts over h: wide, since the list is empty but for where surfaces meet.
+/// Margin of the list of contacts, in h. It is wide, since pairs enter this list only where surfaces meet, so that a long
+/// list costs little and a rare search saves much.
 const CONTACT_MARGIN: f64 = 1.0;
 
-/// Keeps the viscosity of a particle on a mirror plane and its own image from being 0/0; lost in rounding elsewhere.
+/// Least softening of the viscosity's denominator r^2 + softening h^2, so that a particle on a mirror plane and its own image
+/// do not give 0/0. For all other pairs so small a number is lost in rounding.
 const LEAST_SOFTENING: f64 = 1e-9;
 
 impl Scene {
@@ -141,7 +143,8 @@ impl Scene {
         2.0 * self.smoothing_length() + margin
     }
 
-    /// How far beyond the range of what acts the list that follows the particles reaches.
+    /// How far (length) the list that follows the particles reaches beyond the range of what acts, so that it serves for
+    /// several steps.
     fn margin(&self) -> f64 {
         let usual = if (self.method.contact.any() && !self.method.list_follows()) || self.method.gap.is_some() {
             CONTACT_MARGIN
@@ -163,25 +166,25 @@ impl Scene {
         if range > 0.0 { range + self.margin() } else { 0.0 }
     }
 
-    /// Distance from a facet up to which the particles lie whose facets it may touch.
+    /// Width of a cell that facets need: a facet may touch those of particles up to this distance from it.
     fn facet_cell(&self) -> f64 {
         if self.method.gap.is_some() { self.facet_reach() + self.longest_lever() } else { 0.0 }
     }
 
-    /// Place of a pair of bodies whose surfaces touch as those of all others do, plus 1; 0 if pairs differ.
+    /// If all pairs of touching bodies have the same numbers, the index of one such pair plus 1; 0 if the pairs differ.
     fn facet_alike(&self) -> u32 {
         let mut touching = self.facet_pairs.iter().flatten().enumerate().filter(|(_, pair)| pair.stiffness > 0.0);
         let Some((place, first)) = touching.next() else { return 0 };
         if touching.all(|(_, pair)| pair == first) { place as u32 + 1 } else { 0 }
     }
 
-    /// Longest way from a facet to its particle.
+    /// Largest distance from a facet to the particle that carries it.
     fn longest_lever(&self) -> f64 {
         let lever = |facet: &super::SceneFacet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
         self.facets.iter().map(lever).fold(0.0, f64::max)
     }
 
-    /// Entries that a facet's list can hold: two faces within reach, crowded.
+    /// Entries that a facet's list can hold: the facets that two flat faces have within reach, and 16 to spare.
     fn facet_capacity(&self) -> u32 {
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
         let q = self.facet_reach() / spacing;
@@ -189,12 +192,13 @@ impl Scene {
         if q > 0.0 { (2.0 * face) as u32 + 16 } else { 0 }
     }
 
-    /// Square of the rate that the stiffest contact by surfaces gives a particle: the sum of k A over its mass, a
-    /// quarter of it, so that a step at cfl 1 stays below the limit of 2 over the frequency. A facet beside its particle
-    /// moves more easily than the particle, by the square of the way.
+    /// A quarter of the square of the highest frequency that contact by surfaces gives a particle, in 1/time^2. The square of
+    /// the frequency is the sum of k A over the particle's mass. Leapfrog is stable up to a step of 2/frequency; with the
+    /// quarter, a step at cfl 1 stays below that. A facet at a distance d from its particle follows the particle's
+    /// deformation too, so that the same force moves it farther: its k A counts 1 + 2 (d/spacing)^2 times.
     pub(super) fn contact_rate(&self) -> f64 {
         let stiffness = |body: usize| {
-            // Either surface measures the other.
+            // Each of two surfaces measures its gap to the other, so a body feels the stiffness twice.
             let own = self.facet_pairs.iter().map(|row| 2.0 * row[body].stiffness);
             own.chain(self.obstacles.iter().map(|obstacle| obstacle.pairs[body].stiffness)).fold(0.0, f64::max)
         };
@@ -210,7 +214,8 @@ impl Scene {
         0.25 * rates.into_iter().fold(0.0, f64::max)
     }
 
-    /// Entries that a list of contacts can hold: the half space within reach, crowded.
+    /// Entries that a particle's list of contacts can hold. The other body fills half of the ball within reach; room for the
+    /// whole ball, and 16 more, leaves space for crowding.
     fn contact_capacity(&self) -> u32 {
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
         let q = self.contact_reach() / spacing;
@@ -218,8 +223,9 @@ impl Scene {
         if q > 0.0 { inside as u32 + 16 } else { 0 }
     }
 
-    /// Entries a neighbour list needs. In the reference configuration: what there is. Else: what the densest packing holds within reach, and half as much again
-    /// (twice in the plane, where clumps form more easily), since Eulerian particles may crowd.
+    /// Entries that a neighbour list needs. A list of the reference configuration needs as many as there are neighbours. A list
+    /// that follows the particles gets what the densest packing holds within reach and half as much again (in the plane,
+    /// where clumps form more easily, twice as much), since Eulerian particles may crowd.
     fn list_capacity(&self) -> u32 {
         if !self.method.list_follows() {
             return *self.most_bonds.get_or_init(|| self.most_neighbors(self.reach()).max(1));

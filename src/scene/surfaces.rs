@@ -49,9 +49,9 @@ impl Parts<'_> {
 
     fn check_gap(&self, gap: &SurfaceGap, potential: bool, path: &[&str; 3]) -> Result<(), String> {
         let refuse = self.refuse;
-        refuse.unless(!potential, path, || "two bodies touch by one law: no gap beside another".into())?;
+        refuse.unless(!potential, path, || "two bodies touch by one law: name a gap or another law, not both".into())?;
         refuse.unless(self.file.symmetry.is_empty() && self.file.periodic.is_none(), path, || {
-            "contact by a gap sees neither mirror nor periodic images: no [[symmetry]], no periodic axes".into()
+            "contact by a gap sees neither mirror nor periodic images: take [[symmetry]] and periodic axes away".into()
         })?;
         let forms = self.file.contact.iter().filter_map(|contact| contact.gap.as_ref());
         refuse.unless(forms.into_iter().all(|other| other.form == gap.form), path, || {
@@ -71,7 +71,7 @@ impl Parts<'_> {
             format!("friction must be 0 or a positive number, found {friction}")
         })?;
         refuse.unless(friction == 0.0 || self.file.quasi_static.is_none(), path, || {
-            "friction depends on the way that equilibrium is reached: not with [quasi_static]".into()
+            "friction depends on the way that equilibrium is reached: a scene with [quasi_static] takes none".into()
         })
     }
 
@@ -85,7 +85,7 @@ impl Parts<'_> {
             "contact by surfaces does not go with the quadratic gradient".into()
         })?;
         refuse.unless(file.quasi_static.is_some() || file.time.integrator == Integrator::Leapfrog, path, || {
-            "contact by surfaces has the integrator leapfrog, or [quasi_static]".into()
+            "contact by surfaces needs time.integrator `leapfrog`, or [quasi_static]".into()
         })
     }
 
@@ -139,7 +139,7 @@ impl Parts<'_> {
             if !(radius > 0.0 && radius.is_finite()) {
                 return Err(format!("radius must be a positive number, found {radius}"));
             }
-            // From where it touches first to its centre.
+            // The axis leads from the point that touches first to the centre.
             let inward = -self.toward_bodies(center, along, velocity);
             Ok(Obstacle::new(kind, center - inward * radius, [inward, along], radius, 0.0))
         };
@@ -212,7 +212,7 @@ impl Parts<'_> {
             let mut pieces = facets(&typed.shape, body.spacing, used(anchor, self.file.dimension), self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
             let own = self.particles.iter().enumerate().filter(|(_, p)| p.body as usize == k);
-            // What lies deeper carries no piece of the surface.
+            // A particle that lies deeper than this carries no facet.
             let deep = -2.0 * body.spacing;
             let own = own.filter(|(_, p)| typed.shape.distance(p.position, self.file.dimension) > deep);
             let (numbers, positions): (Vec<u32>, Vec<DVec3>) = own.map(|(i, p)| (i as u32, p.position)).unzip();

@@ -4,7 +4,7 @@ use super::{call, drift_by, list, order};
 use crate::method::CorrectedKernel;
 use crate::pass::{Call, Pass, Stage};
 
-/// A pass whose sums run over the reference configuration, or over the current one.
+/// A call of a pass whose sums run over the reference configuration, or else over the current one.
 fn summed(pass: Pass, reference: bool) -> Call {
     Call { pass, stage: Stage { reference, ..Stage::default() } }
 }
@@ -23,7 +23,8 @@ pub(super) fn prepare(options: CorrectedKernel, calls: &mut Vec<Call>) {
     }
 }
 
-/// Kept neighbours are known by their places, so with them the particles stay where they are.
+/// Kept neighbours are indices into the columns of particles. Where neighbours are kept, the particles must therefore not be
+/// reordered: the list is made, but the columns keep their order.
 pub(super) fn begin_segment(options: CorrectedKernel, calls: &mut Vec<Call>) {
     if options.keeps_gradients() {
         list(false, calls);

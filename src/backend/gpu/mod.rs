@@ -35,7 +35,7 @@ pub use plan::Patch;
 const SUBMISSION: usize = 1000;
 const CLOCK_BYTES: u64 = size_of::<Clock<f32>>() as u64;
 
-/// How a test bends the rules.
+/// What a test changes about a run on the device.
 #[derive(Default)]
 pub struct Options {
     /// Most particles of one part of the neighbour list.
@@ -49,7 +49,7 @@ pub struct Gpu {
     info: DeviceInfo,
     tables: Tables,
     planner: Planner,
-    /// Run once, before the first segment.
+    /// Commands that run once, before the first segment.
     prepare: Vec<Action>,
     begin_segment: Vec<Action>,
     begin_run: Vec<Action>,
@@ -150,7 +150,8 @@ impl Gpu {
         self.link.submit(encoder)
     }
 
-    /// Brings fields up to date that the steps leave behind. Between segments only: passes rest while the clock does.
+    /// Brings fields up to date that the steps leave at an earlier time. It may only be called between segments, and starts
+    /// the clock for it: passes do nothing while the clock is stopped.
     fn refresh(&mut self, fields: &[Field]) -> Result<(), String> {
         let calls = step::before_fetch(&self.planner.method, fields);
         if calls.is_empty() {
@@ -176,7 +177,7 @@ impl Gpu {
         Ok(Clock { start: self.start, ..seen.to_f64() })
     }
 
-    /// Sets the clock but for the counts that run through the whole run.
+    /// Sets the clock for a segment; the counts of steps and lists go on through the whole run.
     fn write_clock(&self, start: f64, duration: f64, steps: u32) -> Result<(), String> {
         let (start, duration) = (start as f32, duration as f32);
         let clock = Clock { start, duration, steps_left: steps, running: 1, rebuild: 1, ..Clock::default() };
@@ -212,7 +213,7 @@ impl Gpu {
         Ok(bytes[0].chunks_exact(8).map(pod_read_unaligned).collect())
     }
 
-    /// Seconds of each call, once; every call finds the clock as it was.
+    /// Seconds that each call takes, measured once. The clock is set back before every call.
     fn time_once(&self, plans: &[Vec<Action>], restore: &Action) -> Result<Vec<f64>, String> {
         if self.info.timestamps && 2 * plans.len() <= wgpu::QUERY_SET_MAX_QUERIES as usize {
             let period = f64::from(self.link.queue.get_timestamp_period()) * 1e-9;

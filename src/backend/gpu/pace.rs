@@ -4,7 +4,7 @@ use crate::rows::Clock;
 
 /// Seconds that a batch should take: short enough to stay responsive, long enough to hide the wait.
 const TARGET: f64 = 0.5;
-/// Fewer steps than this are not worth a wait, while particles are few.
+/// Fewest steps of a batch where particles are few: the wait for a shorter batch would cost more than the batch.
 const LEAST: u32 = 50;
 const FEW_PARTICLES: u32 = 1_000_000;
 const MOST: u32 = 100_000;
@@ -47,7 +47,8 @@ impl Pace {
         let done = clock.steps_done.wrapping_sub(self.steps_done);
         let measured = seconds / f64::from(done.max(1));
         self.seconds_per_step = match self.seconds_per_step {
-            // Idle steps count for nothing, and a segment's beginning for too much.
+            // Steps past the segment's end, and a segment's beginning, both make a step look longer than it is. Such a batch
+            // may only lower the estimate.
             Some(known) if clock.running == 0 || self.fresh => Some(known.min(measured)),
             _ => Some(measured),
         };

@@ -12,7 +12,7 @@ use wgpu::{Buffer, CommandEncoder, ComputePassDescriptor, ComputePipeline};
 /// Changes the composed text of a pass, so that a test can sabotage it.
 pub type Patch = Box<dyn Fn(Pass, String) -> String + Send>;
 
-/// One command.
+/// One command for the device.
 #[derive(Clone)]
 pub enum Action {
     Dispatch { pipeline: ComputePipeline, bindings: wgpu::BindGroup, groups: (u32, u32) },

@@ -28,7 +28,7 @@ const LONGEST_PART: u64 = 4 << 20;
 
 pub struct Table {
     pub buffer: Buffer,
-    /// Without what the buffer was rounded up by.
+    /// Bytes of the table, without those by which the buffer was rounded up.
     pub bytes: u64,
 }
 
@@ -46,7 +46,7 @@ pub struct Tables {
     pub params: Params<f32>,
     pub fields: Vec<Field>,
     pub parts: Vec<Part>,
-    /// Where the reordered field is made.
+    /// Buffer in which a field is put into its new order.
     pub scratch: Table,
     named: BTreeMap<&'static str, Table>,
 }

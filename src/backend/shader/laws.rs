@@ -1,5 +1,6 @@
-//! Text of what the laws of a scene make: their structures of numbers, and the functions of `src/material/mod.rs` over
-//! these laws and no others. One law is called directly, several meet in a switch over what the body has.
+//! Shader text that the laws of a scene ask for: their structures of numbers, and the twins of the functions of
+//! `src/material/mod.rs` over these laws and no others. A single law is called directly; several are called from a switch
+//! over the number of the law that the body holds.
 
 use crate::material::{Law, Role};
 
@@ -67,7 +68,8 @@ pub(super) fn over_role(import: &str, laws: &[Law]) -> Option<String> {
     let call = |law: Law| format!("return {name}_{}(body, {argument});", law.word());
     let body = match laws[..] {
         [] => format!("    return {none};\n"),
-        // Bodies that do not yield, or have no pressure, do not ask; those without a heat do.
+        // A body that does not yield never asks for a flow stress, nor a whole law for a pressure, so a single law needs no
+        // switch. A body without a heat does ask for the rise of its temperature, which is 0.
         [only] if function.role != Role::Heat => format!("    {}\n", call(only)),
         _ => {
             let role = function.role.word();
@@ -147,7 +149,7 @@ fn body(function: &Function, answers: &[Answer]) -> String {
         Some(value) if !answer.memory => format!("return {value};"),
         _ => format!("return {}_{}({});", function.name, answer.word, function.arguments),
     };
-    // Some case must be the default.
+    // WGSL asks for a default: the last answer is it.
     let Some((last, others)) = answers.split_last() else { return String::new() };
     if others.is_empty() {
         return format!("    {}\n", call(last));

@@ -19,7 +19,7 @@ const LONGER: f64 = 1.1;
 const SHORTER: f64 = 0.5;
 /// Steps downhill after which the step grows.
 const PATIENCE: u32 = 5;
-/// The first step and the shortest one, over the longest.
+/// Length of the first step, and of the shortest one, over the longest stable step.
 const FIRST_STEP: f64 = 0.25;
 const SHORTEST_STEP: f64 = 0.02;
 
@@ -27,7 +27,7 @@ pub fn go_on<S: Space>(state: &mut State<S>, measure: Measure<S::Real>) {
     let (real, zero) = (S::Real::of, S::Real::of(0.0));
     let listed_again = state.method.listed_again();
     let (params, clock, method) = (&state.params, &mut state.clock, state.method.quasi_static);
-    // The first call of a segment finds no step behind it.
+    // The first call of a segment comes before any step: it sets the first step and counts none.
     if clock.step > zero {
         clock.steps_left -= 1;
         clock.steps_done += 1;

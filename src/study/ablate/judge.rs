@@ -7,18 +7,18 @@ use crate::study::accuracy::row::{OK, Row};
 /// What a piece turned out to be.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// No observable knows of it.
+    /// Without the piece no observable changes.
     Idle,
-    /// All that is expected stays within tolerance.
+    /// Without the piece observables change, but all that is expected stays within tolerance.
     Spare,
-    /// Something leaves its tolerance: its name.
+    /// Without the piece this expectation or observable leaves its tolerance.
     Needed(String),
-    /// The scene cannot be without it, its run failed, or something can no longer be judged: why.
+    /// Nothing is known, and why: the scene cannot be without the piece, the run failed, or something can no longer be judged.
     Untold(String),
 }
 
 impl Verdict {
-    /// Whether the scene may be without it.
+    /// Whether the scene may be without the piece.
     pub fn may_go(&self) -> bool {
         matches!(self, Verdict::Idle | Verdict::Spare)
     }
@@ -35,11 +35,12 @@ impl Verdict {
     }
 }
 
-/// Largest change of an observable over its scale that counts as none.
+/// A change of an observable, over its scale, up to this one counts as no change.
 const NOTHING: f64 = 1e-6;
-/// A reduced run may take this much longer and still be the cheaper one: machines are shared.
+/// A reduced run still counts as no more costly if it takes up to this many times the processor time, since times on a shared
+/// machine scatter.
 const LONGER: f64 = 1.25;
-/// The same for particle-updates, which no machine bends.
+/// The same factor for particle-updates, which are the same on every machine.
 const MORE: f64 = 1.02;
 
 /// Tolerances, and the run of the whole scene.

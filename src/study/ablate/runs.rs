@@ -108,7 +108,7 @@ impl Runs<'_> {
     }
 }
 
-/// A run that has ended, for a terminal.
+/// A line for the terminal about a run that has ended.
 fn line(row: &Row) -> String {
     let seconds = row.cost_of(Cost::CpuSeconds).map_or_else(String::new, |seconds| format!(", {seconds:.2} s"));
     format!("{} {}: {}{seconds}", row.key[0], row.key[1], row.status)
@@ -116,7 +116,7 @@ fn line(row: &Row) -> String {
 
 impl Study {
     fn go(&self, scene: &Scene) -> Result<Finished, Stop> {
-        // Between two runs nobody else looks.
+        // A run looks for an interrupt itself; between two runs it must be looked for here.
         if INTERRUPTED.load(Ordering::Relaxed) {
             return Err(Stop::Interrupted(format!("interrupted; the same command goes on with {}", self.file.display())));
         }

@@ -153,7 +153,7 @@ impl Study {
 
     /// Runs a job; `None` where the user stops it.
     fn row(&self, job: &Job) -> Result<Option<Row>, Stop> {
-        // Between two runs nobody else looks.
+        // A run looks for an interrupt itself; between two runs it must be looked for here.
         if INTERRUPTED.load(Ordering::Relaxed) {
             return Ok(None);
         }
@@ -162,7 +162,7 @@ impl Study {
         Ok(match run::run(&scene, &options) {
             Ok(finished) => Some(self.finished(job.key.clone(), &scene, &finished)),
             Err(Stop::Interrupted(_)) => None,
-            // The study shall not be lost for one run of many.
+            // A run that fails becomes a row, so that the study goes on with the others.
             Err(Stop::Failed(reason) | Stop::Refused(reason)) => Some(Row {
                 key: job.key.clone(),
                 cost: None,
@@ -183,14 +183,16 @@ impl Study {
     }
 }
 
-/// That of the CSV, and by what settings are judged where it was asked for.
+/// Path without ending of the pictures and the page: the stem of the CSV, followed by the expectation and the kind of error by
+/// which settings are judged, where the command line names them.
 fn stem(file: &Path, request: &Request) -> PathBuf {
     let stem = file.file_stem().unwrap_or_default().display().to_string();
     let judged = request.observable.clone().into_iter().chain(request.kind.map(|kind| kind.word().to_string()));
     file.with_file_name([stem].into_iter().chain(judged).collect::<Vec<_>>().join("-"))
 }
 
-/// Each setting on each backend once, then again: what slows the machine for a while falls on all alike.
+/// All runs, repeat by repeat: each setting runs once on each backend before any runs again, so that a time in which the machine
+/// is slow does not fall on one setting alone.
 fn jobs(settings: &[Setting], backends: &[Choice], repeats: u32) -> Vec<Job> {
     let mut jobs: Vec<Job> = Vec::new();
     for repeat in 1..=repeats {

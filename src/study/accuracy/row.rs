@@ -5,14 +5,14 @@ use crate::backend::Choice;
 use crate::output::csv::shortest;
 use crate::run::Finished;
 
-/// Columns between the varied paths and the numbers.
+/// Columns that tell how a setting was run; they stand between the varied paths and the numbers.
 pub const RUN: [&str; 3] = ["backend", "precision", "repeat"];
 
 /// Columns of what a run cost.
 pub const COST: [&str; 8] =
     ["particles", "steps", "force_evaluations", "particle_updates", "cpu_seconds", "wall_seconds", "bytes", "bytes_per_particle"];
 
-/// What a setting is judged by beside its error; as places under [`COST`].
+/// The cost by which a setting is judged beside its error, as the index of its column in [`COST`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Cost {
     ForceEvaluations = 2,
@@ -29,7 +29,7 @@ impl Cost {
         COST[self as usize]
     }
 
-    /// As text has it.
+    /// The cost in words, for titles and axes.
     pub fn about(self) -> String {
         self.word().replace('_', " ").replace("particle updates", "particle-updates").replace("cpu", "CPU")
     }

@@ -102,7 +102,7 @@ fn existing(path: &Path) -> Result<String, String> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(String::new()),
         Err(error) => Err(format!("cannot read {}: {error}", path.display())),
         Ok(text) if text.starts_with(OWN) || OWN.starts_with(&text) => Ok(text),
-        Ok(_) => Err(format!("{} is there and no study: --out names another file", path.display())),
+        Ok(_) => Err(format!("{} is there and no study wrote it: --out names another file", path.display())),
     }
 }
 

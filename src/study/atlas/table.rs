@@ -34,7 +34,7 @@ impl Table {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(format!("cannot read {}: {error}", path.display())),
             Ok(text) if text.starts_with(&header()) => text,
-            Ok(_) => return Err(format!("{} is there and no atlas: --out names another folder", path.display())),
+            Ok(_) => return Err(format!("{} is there and no atlas wrote it: --out names another folder", path.display())),
         };
         let records = text.lines().skip(1).filter_map(|line| Record::from_cells(&cells(line)));
         let runs = path.with_extension("");

@@ -18,7 +18,7 @@ pub struct Limit {
     pub integrator: Integrator,
     /// Largest omega dt at which an oscillator does not grow, from the passes of a step.
     pub formula: f64,
-    /// That over the largest frequency of the discrete equations.
+    /// Longest step in theory: `formula` over the largest angular frequency of the discrete equations.
     pub computed: f64,
     /// Longest step of which a thousand and more do not make a run grow.
     pub measured: f64,
@@ -36,9 +36,9 @@ pub struct Secular {
     pub integrator: Integrator,
     /// Largest frequency times the step.
     pub omega_step: f64,
-    /// ln of the amplitude a step: that of an oscillator.
+    /// Logarithm of the factor by which one step multiplies the amplitude of an oscillator, in theory.
     pub computed: f64,
-    /// The same of a run.
+    /// Logarithm of the factor by which one step multiplies the amplitude in a run.
     pub measured: f64,
 }
 
@@ -47,9 +47,9 @@ const LIMITED: [Integrator; 4] = [Integrator::Leapfrog, Integrator::SspRk3, Inte
 /// Steps of a run, and how much faster it must become to count as unstable.
 const STEPS: u32 = 2000;
 const GROWN: f64 = 10.0;
-/// Rows that hold a peak of the speed: two periods and more at the step of [`secular`].
+/// Number of rows in which the speed surely has a peak: at the step of [`secular`] they last more than two periods.
 const PEAK_ROWS: usize = 40;
-/// Bracket of the measured limit over the computed one, and bisections of it.
+/// Range of measured over computed limits that is searched, and how often it is halved.
 const BRACKET: [f64; 2] = [0.8, 1.2];
 const BISECTIONS: usize = 9;
 
@@ -159,12 +159,12 @@ impl Kicked {
         }
         let reach = setting.smoothing_length() * (2.0 + setting.file.list_margin());
         let least = (3.02 * reach / setting.spacing()).ceil() as usize;
-        // Even, so that the edge of the zone is among the waves.
+        // The number of cells is even, so that the shortest wave, at the edge of the Brillouin zone, is among the waves.
         let cells = least.max([32, 10, 10][setting.dimension - 1]).next_multiple_of(2);
         let vectors = setting.wave_vectors(cells);
         let highest = setting.waves().largest_frequency(&vectors);
         if setting.waves().fastest(&vectors).1 > 1e-6 * highest {
-            return Err("the lattice grows at any step: limits are those of a stable one".into());
+            return Err("a wave on the lattice grows at any step: --limits needs a state in which the lattice is stable".into());
         }
         let swings = |k: &[f64; 3]| setting.waves().modes(*k).pop().map(|mode| (*k, mode));
         let fastest = vectors.iter().filter_map(swings).max_by(|a, b| a.1.frequency.total_cmp(&b.1.frequency));

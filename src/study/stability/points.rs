@@ -11,11 +11,11 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-/// Growth below this part of c/dx is rounding of a neutral wave.
+/// A growth rate below this fraction of c/dx counts as the rounding error of a wave that does not grow.
 const GROWS: f64 = 1e-4;
 
-/// Waves of the zone to run: the fastest, then up to half of those asked for over all that grow, and others over those
-/// that swing. A wave that does both is left out.
+/// The waves of the Brillouin zone that are run. Up to half of the number asked for is spread over all waves that grow, the
+/// fastest first, and the rest over those that swing. A wave that does both is left out.
 pub fn chosen(setting: &Setting, cells: usize, count: usize) -> Vec<[f64; 3]> {
     let unit = setting.unit_rate();
     let modes = setting.wave_vectors(cells).into_iter().map(|wave| (wave, setting.mode(wave)));
@@ -31,7 +31,7 @@ pub fn chosen(setting: &Setting, cells: usize, count: usize) -> Vec<[f64; 3]> {
     chosen
 }
 
-/// So many of a list, the first among them, as evenly as whole numbers allow.
+/// `count` elements of a list, the first among them, at distances as equal as whole numbers allow.
 fn spread<T: Copy>(list: &[T], count: usize) -> Vec<T> {
     let count = count.min(list.len());
     (0..count).map(|k| list[k * list.len() / count]).collect()

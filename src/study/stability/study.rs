@@ -141,7 +141,7 @@ fn find_limits(found: &mut [Found]) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Hidden by itself where stderr is no terminal.
+/// A bar that shows the progress; it hides itself where stderr is no terminal.
 fn bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::new(length);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta_precise} left") {

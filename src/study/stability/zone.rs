@@ -14,7 +14,7 @@ pub struct Sample {
     /// k dx.
     pub wave: [f64; 3],
     pub rate: f64,
-    /// Of the wave's slowest motion; 0 where that grows.
+    /// Angular frequency of the wave's slowest motion; 0 where that motion grows.
     pub frequency: f64,
 }
 

@@ -10,17 +10,17 @@ pub const NEIGHBOURS: [(usize, f64, usize); 6] =
     [(1, 0.7, 2), (1, 1.3, 4), (1, 1.8, 6), (2, 1.3, 20), (2, 1.52, 28), (2, 1.8, 36)];
 /// Section 5.1.3.2, page 112: smallest epsilon that is stable on a line.
 pub const LINE_LEAST: [(Spacing, f64); 2] = [(Spacing::Mean, 1.045), (Spacing::Initial, 1.119)];
-/// The same: stable up to about this one.
+/// Section 5.1.3.2, page 112: about the largest epsilon that is stable on a line.
 pub const LINE_MOST: f64 = 90.0;
 /// Section 5.1.3.6, page 118: smallest stable epsilon on a line by h/dx; none at 0.7.
 pub const LINE_LEAST_BY_RATIO: [(f64, Option<f64>); 3] = [(0.7, None), (1.3, Some(1.119)), (1.8, Some(0.600))];
 /// Section 5.1.3.2, page 111: in the plane no epsilon is stable, and this one is the most nearly so.
 pub const PLANE_CALMEST: f64 = 1.3;
-/// Section 5.1.3.6, pages 118 to 120: in the plane at h = 1.8 dx this one is stable, and that one no more.
+/// Section 5.1.3.6, pages 118 to 120: in the plane at h = 1.8 dx the first epsilon is stable and the second is not.
 pub const PLANE_WIDE_STABLE: f64 = 0.95;
 pub const PLANE_WIDE_UNSTABLE: f64 = 10.0;
-/// Section 5.1.3.7, page 121: at h = 1.8 dx in the plane stable with epsilon 1.3 at these relative volumes; at 1.001 with
-/// none, where 0.900 is the most nearly so.
+/// Section 5.1.3.7, page 121: at h = 1.8 dx in the plane epsilon 1.3 is stable at these relative volumes. At the relative volume
+/// 1.001 no epsilon is stable, and 0.900 grows least.
 pub const TENSIONS_STABLE: [f64; 3] = [1.01, 1.03, 1.05];
 pub const TENSION_EPSILON: f64 = 1.3;
 pub const TENSION_UNSTABLE: (f64, f64) = (1.001, 0.900);

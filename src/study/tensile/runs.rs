@@ -1,4 +1,4 @@
-//! Swegle's test run by the program, a run for each curve of the thesis that says something: figures 5.1-3 to 5.1-12.
+//! Swegle's test run by the program: a run for each curve of the figures 5.1-3 to 5.1-12 that supports a claim of the thesis.
 //!
 //! The scene is scenes/tension_square.toml, 51 particles a side. A run is kept as a CSV under its name, and not run again
 //! while its scene's text and the program's version are the same.
@@ -14,7 +14,7 @@ use crate::run::Stop;
 use crate::study::chart::{Axis, Table};
 use std::path::Path;
 
-/// What a run showed.
+/// A run, and its growth in theory and as seen.
 struct Seen {
     point: Point,
     theory: f64,
@@ -33,7 +33,7 @@ impl Seen {
         let rate = (theory * end > 10.0).then(|| growth(&curve, 11.0 / 16.0 * end));
         Self { point, theory, rate, grown: (late / curve[0].1).ln(), curve }
     }
-    /// Grew by more than an e-folding.
+    /// Whether the run grew by more than a factor e.
     fn unstable(&self) -> bool {
         self.grown > 1.0
     }
