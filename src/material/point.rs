@@ -3,17 +3,17 @@
 
 use crate::tensor::Space;
 
-/// Where a strength is asked what it bears.
+/// The state in which a strength is asked for the stress that it bears.
 #[derive(Debug, Clone, Copy)]
 pub struct Point<R> {
     /// Equivalent plastic strain.
     pub strain: R,
-    /// Its rate.
+    /// Rate of the equivalent plastic strain, 1/time.
     pub rate: R,
     pub temperature: R,
 }
 
-/// What it bears: a Mises stress, and its derivatives by the plastic strain and its rate.
+/// What a strength bears at a [`Point`]: a Mises stress, and its derivatives by the plastic strain and by its rate.
 #[derive(Debug, Clone, Copy)]
 pub struct Flow<R> {
     pub stress: R,
