@@ -1,6 +1,7 @@
 //! From a scene file to a scene that can run and give what it is asked for.
 
 use crate::observable;
+use crate::scene::file::File;
 use crate::scene::read::{self, Read};
 use crate::scene::{Scene, resolve};
 use std::path::Path;
@@ -26,6 +27,11 @@ impl Scene {
     pub fn open_flawless(path: &Path, variant: Option<&str>, overrides: &[String]) -> Result<Self, String> {
         let name = path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
         Self::of(name, read::read(path, variant, overrides)?.flawless())
+    }
+
+    /// A scene whose tables the program made itself.
+    pub fn from_file(file: File, name: &str) -> Result<Self, String> {
+        Self::of(name.into(), Read::made(file, name))
     }
 
     /// What was read, resolved, if every observable and expectation can be had from it.

@@ -7,13 +7,14 @@ use crate::material::{self, Law, NUMBERS, Number, Point, Reads, Role};
 use crate::method::Formulation;
 use crate::rows::Body;
 use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::LazyLock;
 
 /// `[material.NAME]`: density, moduli, and the numbers of a law by its short form; or a law for each role.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default)]
 pub struct MaterialTable {
     /// Word of the short form.
     pub law: Option<String>,
@@ -22,7 +23,7 @@ pub struct MaterialTable {
 }
 
 /// The law of one role, with its numbers: `{ j2 = { yield_stress = 1.0 } }`, or its word alone.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct RoleTable {
     pub law: String,
     pub numbers: BTreeMap<String, f64>,
@@ -121,6 +122,23 @@ impl<'de> Deserialize<'de> for MaterialTable {
             }
         }
         deserializer.deserialize_struct("MaterialTable", *KEYS, Table)
+    }
+}
+
+/// As it may be typed, but for the parts of `hardening`: what was read is compared with what was typed.
+impl Serialize for MaterialTable {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (key, value) in &self.numbers {
+            map.serialize_entry(key, value)?;
+        }
+        if let Some(word) = &self.law {
+            map.serialize_entry(Role::Whole.word(), word)?;
+        }
+        for (role, table) in &self.roles {
+            map.serialize_entry(role, &BTreeMap::from([(&table.law, &table.numbers)]))?;
+        }
+        map.end()
     }
 }
 

@@ -78,6 +78,13 @@ pub fn variants(path: &Path) -> Result<Vec<String>, String> {
 }
 
 impl Read {
+    /// Tables that the program made: no line of a file stands behind them, and no text.
+    pub fn made(file: File, name: &str) -> Self {
+        let root = Node { place: Place::Line(1), value: Value::Table(BTreeMap::new()) };
+        let document = Document { name: name.into(), root: root.clone(), variants: BTreeMap::new() };
+        Self { file, source: Source { name: name.into(), root }, variant: None, resolved_text: String::new(), document }
+    }
+
     /// The same with bodies of the shape that they are typed with.
     pub fn flawless(mut self) -> Self {
         self.file.body.iter_mut().for_each(|body| body.flaw = None);

@@ -177,8 +177,7 @@ fn common_divisor(a: usize, b: usize) -> usize {
 
 /// A scene from its tables.
 pub(super) fn parsed(file: &File) -> Result<Scene, String> {
-    let text = toml::to_string(file).map_err(|error| format!("the lattice cannot be written as a scene: {error}"))?;
-    Scene::parse(&text, "lattice", None, &[])
+    Scene::from_file(file.clone(), "lattice")
 }
 
 /// The amplitude at the start and after each part of the course.
