@@ -39,9 +39,6 @@ macro_rules! sets {
             pub fn word(self) -> &'static str {
                 match self { $(Set::$name => $word),* }
             }
-            pub fn about(self) -> &'static str {
-                match self { $(Set::$name => $about),* }
-            }
         }
 
         impl Counts {
