@@ -44,8 +44,9 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     // `own` is the sum of the kernel gradients alone: a's own stress multiplies it once, after the loop.
     var own = Vec();
     var others = Vec();
+    let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
         let weight = bond.gradient * reference_volume[bond.b];
         let x = bond.x * weight;
         own += x;

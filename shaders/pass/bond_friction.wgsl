@@ -20,12 +20,13 @@ fn of_particle(a: u32, row: u32) {
     let count = neighbor_count[a];
     var sum = Vec();
     var power: real = 0.0;
+    let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
         // x_a - x_b
         let x = bond.x - displacement_difference(displacement_a, bond);
         let v_ba = velocity_difference(velocity_a, bond);
-        let friction = friction_of(own_body, bond, x, v_ba);
+        let friction = friction_of(own_body, h, bond, x, v_ba);
         sum += friction;
         power += 0.5 * inner(v_ba, friction);
     }
@@ -35,8 +36,7 @@ fn of_particle(a: u32, row: u32) {
 #endif
 }
 
-fn friction_of(own_body: Body, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
-    let h = smoothing_length(a);
+fn friction_of(own_body: Body, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
     let square = inner(x, x);
     let mu = min(-h * inner(v_ba, x) / (square + params.softening * h * h), 0.0);
     let pi = (params.beta * mu - params.alpha * own_body.sound_speed) * mu;

@@ -26,8 +26,9 @@ fn of_particle(a: u32, row: u32) {
     let gradient = corrected(a, sum_bonds(a, row));
     let count = neighbor_count[a];
     var sum: real = 0.0;
+    let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, smoothing_length(a), neighbors[k * params.chunk + row]);
+        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
         let stray = displacement_difference(displacement_a, bond) + mat_vec(gradient, bond.x);
         sum += inner(stray, stray) * (-bond.gradient * reference_volume[bond.b]);
     }
