@@ -7,6 +7,8 @@
 
 // Rounds that bring the Mises stress q to the flow stress sY.
 const FINITE_ROUNDS: u32 = 5u;
+// And at most, where strains or rates are large.
+const MOST_FINITE_ROUNDS: u32 = 40u;
 
 // Of A = C_p C'^-1: tr A/3, tr A^D A^D, det A^D.
 struct Invariants {
@@ -53,14 +55,28 @@ fn relax_to_yield(body: Body, h: Mat, memory: Memory, step: real) -> Memory {
     var growth = increment(body, trial, rest);
     var w = stiffness * growth / (trial.stress - stiffness * growth);
     var at = Point(trial.strain, 0.0, trial.temperature);
-    for (var round = 0u; round < FINITE_ROUNDS; round++) {
+    // The root lies between the largest w that was too small and the smallest that was too large.
+    var low: real = 0.0;
+    var high: real = 1e30;
+    for (var round = 1u; round <= MOST_FINITE_ROUNDS; round++) {
         let mises = mises_of(invariants, w);
         let q = mu * mises.ratio;
         growth = w * sqrt(trial.stress * q / mises.rho) / stiffness;
         at = trial_point(body, trial, growth, trial_begin(body, trial, growth), q);
         let wanted = flow(body, at);
         let excess = (q - wanted.stress) * stiffness / (stiffness + trial_slope(trial, wanted));
+        if q > wanted.stress {
+            low = w;
+        } else {
+            high = w;
+        }
         w += (1.0 + w) * excess / (q - excess);
+        if w < low || w > high {
+            w = 0.5 * (low + high);
+        }
+        if round >= FINITE_ROUNDS && abs(q - wanted.stress) <= RETURN_ROUNDING * q {
+            break;
+        }
     }
     return Memory(relaxed(h, memory.strain, w), memory.plastic + growth, at.temperature);
 }

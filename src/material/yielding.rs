@@ -16,8 +16,9 @@ use crate::tensor::{Real, Space};
 /// Rounds of Newton's method in [`increment`] at most; most laws take three.
 const ROUNDS: usize = 24;
 /// Rounds that bring the Mises stress q to the flow stress sY at finite strain. Each round multiplies the error by about the
-/// elastic strain of the trial state, which is small where a metal yields.
-const FINITE_ROUNDS: usize = 5;
+/// elastic strain of the trial state, which is small where a metal yields; where strains or rates are large more rounds follow,
+/// until the two agree.
+const FINITE_ROUNDS: [usize; 2] = [5, 40];
 /// Error of a flow stress that counts as rounding, in units of the distance from one floating-point number to the next.
 const ROUNDING: f64 = 4.0;
 /// Part of the highest possible growth that is tried next where Newton's method has left its bounds and no lower bound is
@@ -214,14 +215,28 @@ pub fn relax<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: Memory<S>, step:
     let mut growth = increment(body, &trial, &rest);
     let mut w = stiffness * growth / (trial.stress - stiffness * growth);
     let mut at = Point { strain: trial.strain, rate: trial.rate(growth), temperature: trial.temperature };
-    for _ in 0..FINITE_ROUNDS {
+    // q falls with w and the flow stress grows: the root lies between the largest w that was too small and the smallest that was
+    // too large, infinite until one is known.
+    let (mut low, mut high) = (S::Real::of(0.0), S::Real::of(f64::INFINITY));
+    for round in 1..=FINITE_ROUNDS[1] {
         let (ratio, rho) = invariants.mises(w);
         let q = mu * ratio;
         growth = w * (trial.stress * q / rho).sqrt() / stiffness;
         at = trial.point(body, growth, trial.begin(body, growth), q);
         let wanted = flow(body, &at);
         let excess = (q - wanted.stress) * stiffness / (stiffness + trial.slope(&wanted));
+        if q > wanted.stress {
+            low = w;
+        } else {
+            high = w;
+        }
         w += (one + w) * excess / (q - excess);
+        if w < low || w > high {
+            w = S::Real::of(0.5) * (low + high);
+        }
+        if round >= FINITE_ROUNDS[0] && (q - wanted.stress).abs() <= S::Real::of(ROUNDING * S::Real::EPSILON) * q {
+            break;
+        }
     }
     Memory { strain: relaxed::<S>(h, memory.strain, w), plastic: memory.plastic + growth, temperature: at.temperature }
 }

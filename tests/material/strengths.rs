@@ -94,10 +94,12 @@ fn the_return_at_finite_strain_ends_there_too() {
             let mean = material::kirchhoff(&body, strain::volume_change::<S>(h));
             let q = mises::<S>(kirchhoff - S::diagonal(mean));
             let at = Point { strain: after.plastic, rate: growth / step, temperature: after.temperature };
-            worst = worst.max((q / material::flow(&body, &at).stress - 1.0).abs());
+            // The growth is known to the last digit of the sum alone, and no strength changes faster than its rate.
+            let known = f64::EPSILON * after.plastic / growth;
+            worst = worst.max((q / material::flow(&body, &at).stress - 1.0).abs() / (1.0 + known / 1e-13));
         }
         println!("{law:?} at finite strain: {flowed} flowed, the Mises stress is off by {worst:.1e}");
-        assert!(flowed > 100 && worst < 1e-6, "{law:?}: {flowed} {worst:e}");
+        assert!(flowed > 100 && worst < 1e-12, "{law:?}: {flowed} {worst:e}");
     }
 }
 
