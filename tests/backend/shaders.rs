@@ -3,7 +3,7 @@
 
 use crate::common::{Random, scene_files};
 use lithosph::backend::shader::{Shader, compose};
-use lithosph::material::Law;
+use lithosph::material::{Law, Reads, Role};
 use lithosph::method::{
     ArtificialForm, Configuration, CorrectedKernel, Deformation, Density, Formulation, Gradient, Integrator, Method,
     VelocityGradient,
@@ -90,7 +90,7 @@ pub fn random_method(random: &mut Random) -> Method {
     let plastic = random.coin();
     Method {
         dimension: 1 + random.below(3),
-        laws: if plastic { vec![Law::Elastic, Law::J2] } else { vec![Law::Elastic] },
+        laws: if plastic { metal(random, Law::Linear) } else { vec![Law::Linear, Law::Elastic] },
         smoothing: Smoothing::ALL[random.below(Smoothing::ALL.len())],
         integrator: if plastic { Leapfrog } else { [Leapfrog, Rk2, SspRk3, Rk4][random.below(4)] },
         density: [Density::Continuity, Density::Summation][random.below(2)],
@@ -113,11 +113,25 @@ pub fn random_method(random: &mut Random) -> Method {
     }
 }
 
+/// The laws of a body that yields, in order, beside one that does not.
+fn metal(random: &mut Random, pressure: Law) -> Vec<Law> {
+    let strengths: Vec<Law> = Law::of_role(Role::Strength).filter(|law| law.yields()).collect();
+    let strength = strengths[random.below(strengths.len())];
+    let heat = (strength.reads(Reads::Temperature) || random.coin()).then_some(Law::Adiabatic);
+    let mut laws: Vec<Law> = [pressure, Law::Elastic, strength].into_iter().chain(heat).collect();
+    laws.sort_unstable();
+    laws
+}
+
 /// The same in the Total Lagrangian formulation, as far as a scene of it can go.
 pub fn random_lagrangian(random: &mut Random) -> Method {
-    let all = [Law::StVenantKirchhoff, Law::NeoHookean, Law::Maxwell, Law::J2];
+    let whole = Law::of_role(Role::Whole);
     let chosen = 1 + random.below(15);
-    let laws: Vec<Law> = all.into_iter().enumerate().filter(|(k, _)| chosen >> k & 1 == 1).map(|(_, law)| law).collect();
+    let mut laws: Vec<Law> = whole.enumerate().filter(|(k, _)| chosen >> k & 1 == 1).map(|(_, law)| law).collect();
+    if chosen >> 3 == 1 {
+        laws.extend(metal(random, Law::HartmannNeff));
+        laws.sort_unstable();
+    }
     let memory = laws.iter().any(|law| law.has_memory());
     let eulerian = random_method(random);
     Method {

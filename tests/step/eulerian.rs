@@ -52,6 +52,12 @@ fn an_elastic_scene_has_the_fields_of_elasticity_and_no_others() {
         ListedDisplacement,
         Cell,
         NeighborCount,
+        CellCount,
+        CellStart,
+        CellBlock,
+        CellParticles,
+        Neighbors,
+        BlockBound,
     ];
     assert_eq!(cpu.state.columns.present(), expected.iter().copied().fold(Vec::new(), sorted_in));
     let passes: Vec<&str> = step::step(&scene.method).iter().map(|c| c.pass.name()).collect();

@@ -53,6 +53,12 @@ fn a_bare_scene_has_the_fields_and_passes_that_it_needs_and_no_others() {
         BondStress,
         Cell,
         NeighborCount,
+        CellCount,
+        CellStart,
+        CellBlock,
+        CellParticles,
+        Neighbors,
+        BlockBound,
     ];
     expected.sort_unstable();
     assert_eq!(fields, expected);
@@ -81,7 +87,7 @@ fn each_option_adds_its_own_fields_and_passes() {
         ),
         (
             &[TOUCH, "formulation.hourglass=0"],
-            &[Field::ListedDisplacement, Field::ContactCount, Field::ContactEnergy],
+            &[Field::ListedDisplacement, Field::ContactCount, Field::Contacts, Field::ContactEnergy],
             &[Pass::FindContacts, Pass::ContactForce],
         ),
     ];

@@ -128,7 +128,7 @@ pub(super) fn text(laws: &[Law]) -> String {
     let whole = laws.iter().filter(|law| law.role() == Role::Whole);
     let mut answers: Vec<Answer> =
         whole.map(|law| Answer { number: law.number(), word: law.word(), memory: law.has_memory() }).collect();
-    if laws.iter().any(|law| law.role() == Role::Pressure) {
+    if laws.iter().any(|law| matches!(law.role(), Role::Pressure | Role::Strength)) {
         answers.push(Answer { number: 0, word: "of_roles", memory: laws.iter().any(|law| law.yields()) });
     }
     let mut text: String = answers.iter().map(|answer| format!("#import {}\n", answer.word)).collect();
