@@ -82,7 +82,7 @@ macro_rules! laws {
 
 laws! {
     pressure: linear Linear, hartmann_neff HartmannNeff;
-    strength: elastic Elastic, j2 J2;
+    strength: elastic Elastic, j2 J2, zerilli_armstrong ZerilliArmstrong;
     heat: isothermal Isothermal, adiabatic Adiabatic;
     whole: st_venant_kirchhoff StVenantKirchhoff, neo_hookean NeoHookean, maxwell Maxwell;
 }
