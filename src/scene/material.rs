@@ -96,6 +96,17 @@ fn number<'de, A: MapAccess<'de>>(map: &mut A, key: &str, numbers: &mut BTreeMap
     Ok(())
 }
 
+/// Reads a key that must be one of these; the error is the key's own, so that it is told by its line.
+struct Key(&'static [&'static str]);
+
+impl<'de> DeserializeSeed<'de> for Key {
+    type Value = String;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<String, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        if self.0.contains(&key.as_str()) { Ok(key) } else { Err(D::Error::unknown_field(&key, self.0)) }
+    }
+}
+
 impl<'de> Deserialize<'de> for MaterialTable {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Table;
@@ -106,10 +117,7 @@ impl<'de> Deserialize<'de> for MaterialTable {
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MaterialTable, A::Error> {
                 let mut table = MaterialTable::default();
-                while let Some(key) = map.next_key::<String>()? {
-                    if !KEYS.contains(&key.as_str()) {
-                        return Err(A::Error::unknown_field(&key, *KEYS));
-                    }
+                while let Some(key) = map.next_key_seed(Key(*KEYS))? {
                     match Role::ALL.into_iter().find(|role| role.word() == key) {
                         Some(Role::Whole) => table.law = Some(map.next_value::<ShortWord>()?.0),
                         Some(role) => {
@@ -155,10 +163,20 @@ impl<'de> Deserialize<'de> for ShortWord {
 /// Reads the law of a role.
 struct OfRole(Role);
 
-impl OfRole {
+/// Reads the word of a law of a role.
+struct WordOf(Role);
+
+impl WordOf {
     fn law<E: Error>(&self, word: &str) -> Result<Law, E> {
         let place = Role::ALL.iter().position(|role| *role == self.0).unwrap_or_default();
         Law::named(self.0, word).ok_or_else(|| E::unknown_variant(word, WORDS_OF_ROLES[place]))
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for WordOf {
+    type Value = Law;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Law, D::Error> {
+        self.law(&String::deserialize(deserializer)?)
     }
 }
 
@@ -172,20 +190,19 @@ impl<'de> DeserializeSeed<'de> for OfRole {
 impl<'de> Visitor<'de> for OfRole {
     type Value = RoleTable;
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a map")
+        f.write_str("a word or a table")
     }
     fn visit_str<E: Error>(self, word: &str) -> Result<RoleTable, E> {
-        let law = self.law::<E>(word)?;
+        let law = WordOf(self.0).law::<E>(word)?;
         Ok(RoleTable { law: law.word().into(), numbers: BTreeMap::new() })
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RoleTable, A::Error> {
         let one = || A::Error::custom("wanted exactly 1 element");
-        let word = map.next_key::<String>()?.ok_or_else(one)?;
-        let law = self.law::<A::Error>(&word)?;
+        let law = map.next_key_seed(WordOf(self.0))?.ok_or_else(one)?;
         let numbers = map.next_value_seed(OfLaw(law))?;
         match map.next_key::<String>()? {
             Some(_) => Err(one()),
-            None => Ok(RoleTable { law: word, numbers }),
+            None => Ok(RoleTable { law: law.word().into(), numbers }),
         }
     }
 }
@@ -207,10 +224,7 @@ impl<'de> Visitor<'de> for OfLaw {
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
         let (known, mut numbers) = (KEYS_OF_LAWS[self.0 as usize], BTreeMap::new());
-        while let Some(key) = map.next_key::<String>()? {
-            if !known.contains(&key.as_str()) {
-                return Err(A::Error::unknown_field(&key, known));
-            }
+        while let Some(key) = map.next_key_seed(Key(known))? {
             number(&mut map, &key, &mut numbers)?;
         }
         Ok(numbers)
@@ -232,8 +246,9 @@ impl MaterialTable {
         match (self.law.as_deref(), self.roles.get(Role::Strength.word())) {
             (Some(word), _) => short().find(|law| law.word() == word),
             (None, Some(strength)) => Law::named(Role::Strength, &strength.law),
-            (None, None) if self.roles.is_empty() => Some(Law::Elastic),
-            (None, None) => None,
+            // A pressure alone is a fluid's.
+            (None, None) if self.roles.contains_key(Role::Pressure.word()) => None,
+            (None, None) => Some(Law::Elastic),
         }
     }
 
@@ -414,5 +429,49 @@ fn moduli(typed: &MaterialTable, fluid: bool) -> Result<(f64, f64), String> {
         }
         (None, None, Some(k), Some(mu)) => Ok((positive(k, "bulk_modulus")?, positive(mu, "shear_modulus")?)),
         _ => Err("needs youngs_modulus with poisson_ratio, or bulk_modulus with shear_modulus, and nothing beside".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Scene;
+
+    /// What a scene with these lines for its metal says.
+    fn said(lines: &str) -> String {
+        let text = format!(
+            "title = 't'\ndimension = 2\nspacing = 1.0\nduration = 1.0\n[[body]]\nname = 'b'\nmaterial = 'metal'\n\
+             shape = {{ block = {{ min = [0, 0], max = [4, 4] }} }}\n[material.metal]\ndensity = 1.0\nyoungs_modulus = 1.0\n\
+             poisson_ratio = 0.3\n{lines}\n"
+        );
+        Scene::parse(&text, "metal.toml", None, &[]).map_or_else(|error| error, |_| "good".into())
+    }
+
+    #[test]
+    fn roles_and_the_short_form_give_the_same_material() {
+        let short = "law = 'j2'\nyield_stress = 0.1\nhardening = { linear = 0.2 }";
+        let apart = "pressure = 'linear'\nstrength = { j2 = { yield_stress = 0.1, hardening = { linear = 0.2 } } }";
+        assert_eq!((said(short), said(apart)), ("good".into(), "good".into()));
+        assert_eq!(said("strength = { j2 = { yield_stress = 0.1 } }\nheat = { isothermal = { temperature = 300 } }"), "good");
+    }
+
+    #[test]
+    fn each_slip_is_told_by_its_line_in_one_sentence() {
+        let cases = [
+            ("strength = { j3 = {} }", "metal.toml:13: unknown word `j3` for `material.metal.strength`, did you mean `j2`?"),
+            ("strength = { j2 = { yield_stres = 1 } }", "unknown key `yield_stres`, did you mean `yield_stress`?"),
+            ("strength = { j2 = { yield_stress = 1 }, elastic = {} }", "must have exactly one key, found `elastic` and `j2`"),
+            ("strength = { j2 = { yield_stress = 'x' } }", "yield_stress` must be a number, found a string"),
+            ("strength = 3", "`material.metal.strength` must be a word or a table such as `{ j2 = { yield_stress = 0.1 } }`"),
+            ("law = 'j2'\nstrength = 'elastic'", "has the law `j2` and beside it a strength: name one of the two"),
+            ("strength = 'j2'", "has the law `j2`: it needs a yield_stress"),
+            ("strength = { j2 = { yield_stress = nan } }", "needs a positive yield_stress, found NaN"),
+            ("yield_stres = 1", "metal.toml:13: unknown key `yield_stres`, did you mean `yield_stress`?"),
+            ("yield_stress = 1", "has a yield_stress, which only the law `j2` takes"),
+            ("heat = { isothermal = { temperature = 300 } }", "has a heat"),
+        ];
+        for (lines, sentence) in cases {
+            let said = said(lines);
+            assert!(said.contains(sentence) && said.lines().count() == 1, "{lines}: {said}");
+        }
     }
 }

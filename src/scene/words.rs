@@ -243,6 +243,7 @@ fn wanted(message: &str, path: &[String]) -> Option<String> {
         "a sequence" if path.first().is_some_and(|table| table == "study") => STUDIED.to_string(),
         "a sequence" => look_up(&LISTS, own).unwrap_or("a list of numbers").to_string(),
         "a map" => "a table".to_string(),
+        "a word or a table" => choice(own).unwrap_or("a table").to_string(),
         _ if expected.starts_with("struct") || expected.contains("struct variant") => "a table".to_string(),
         _ => list_of_length(expected, own, path)?,
     })
