@@ -341,8 +341,8 @@ impl Material {
             if !short.is_some_and(|law| takes(law, key)) {
                 let words = Law::ALL.iter().filter(|law| takes(**law, key)).map(|law| format!("`{}`", law.word()));
                 let words: Vec<String> = words.collect();
-                let laws = if words.len() == 1 { "law" } else { "laws" };
-                return Err(format!("has a {key}, which only the {laws} {} takes", words.join(", ")));
+                let (laws, take) = if words.len() == 1 { ("law", "takes") } else { ("laws", "take") };
+                return Err(format!("has a {key}, which only the {laws} {} {take}", words.join(", ")));
             }
         }
         let warm = self.strength.is_some_and(|law| law.reads(Reads::Temperature));

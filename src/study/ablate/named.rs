@@ -80,6 +80,21 @@ impl Named<'_> {
             if let Some(hardening) = &hardening {
                 list.push(piece(format!("hardening of `{name}`"), vec![hardening.clone()]));
             }
+            if material.yields() && material.law.is_none() {
+                // Laws by roles: without the strength that gives way, and the heat that comes of it.
+                let typed = |role: &&str| material.roles.contains_key(*role);
+                let mut overrides: Vec<String> = match elastic {
+                    "elastic" => vec![key("strength", elastic)],
+                    _ => ["strength", "pressure"].iter().filter(typed).map(|role| key(role, "none")).collect(),
+                };
+                if elastic != "elastic" {
+                    overrides.push(key("law", elastic));
+                }
+                overrides.extend(["heat"].iter().filter(typed).map(|role| key(role, "none")));
+                overrides.extend(self.without_plasticity());
+                list.push(piece(format!("plasticity of `{name}`"), overrides));
+                continue;
+            }
             let (what, limit) = match material.named() {
                 Some(Law::J2) => ("plasticity", "yield_stress"),
                 Some(Law::Maxwell) => ("relaxation", "viscosity"),
@@ -87,16 +102,24 @@ impl Named<'_> {
             };
             let mut overrides = vec![key("law", elastic), key(limit, "none")];
             overrides.extend(hardening);
-            if self.file.formulation.dissipated_energy && self.dissipates() == 1 {
-                overrides.push("formulation.dissipated_energy=false".into());
-                overrides.extend(self.without_fields(&[Field::DissipatedEnergy]));
-            }
-            if self.used().filter(|(_, other)| other.has_memory()).count() == 1 {
-                overrides.extend(self.without_fields(&[Field::InelasticStrain, Field::EquivalentPlasticStrain]));
-            }
+            overrides.extend(self.without_plasticity());
             list.push(piece(format!("{what} of `{name}`"), overrides));
         }
         list
+    }
+
+    /// What a scene must do without if the only material that remembers no longer does.
+    fn without_plasticity(&self) -> Vec<String> {
+        let mut overrides = Vec::new();
+        if self.file.formulation.dissipated_energy && self.dissipates() == 1 {
+            overrides.push("formulation.dissipated_energy=false".into());
+            overrides.extend(self.without_fields(&[Field::DissipatedEnergy]));
+        }
+        if self.used().filter(|(_, other)| other.has_memory()).count() == 1 {
+            let remembered = [Field::InelasticStrain, Field::EquivalentPlasticStrain, Field::Temperature];
+            overrides.extend(self.without_fields(&remembered));
+        }
+        overrides
     }
 
     /// Laws one by one, then what is left of a contact beside its only law.
