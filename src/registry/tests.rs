@@ -108,6 +108,6 @@ fn what_is_missing_is_named() {
     assert_eq!(wrong(Part::Potential(Potential::Barrier)), "the registry has no potential `barrier`");
     assert_eq!(wrong(Part::Field(Field::InelasticStrain)), "the registry has no field `inelastic_strain`");
     assert_eq!(wrong(Part::Pass(Pass::ContactForce)), "the registry has no pass `contact_force`");
-    let file = Part::File(own.file("maxwell").unwrap());
-    assert!(wrong(file).contains("unknown import: #import maxwell"), "{}", wrong(file));
+    let file = Part::File(own.file("inelastic").unwrap());
+    assert!(wrong(file).contains("unknown import: #import inelastic"), "{}", wrong(file));
 }

@@ -5,6 +5,7 @@ use super::*;
 use crate::backend::cpu::Cpu;
 use crate::backend::device::{Want, choose};
 use crate::fields::Columns;
+use crate::material::Law;
 use crate::method::Method;
 use crate::pass::{Pass, Stage};
 use crate::rows::Body;
@@ -44,6 +45,7 @@ fn state(side: usize) -> State<Plane<f32>> {
     }
     let body =
         Body { density: 1.0, bulk_modulus: 1.0, shear_modulus: 0.5, sound_speed: 1.2, smoothing_length: 1.2, ..Body::default() };
+    let body = body.with(Law::Linear, &[]).with(Law::Elastic, &[]);
     State {
         method,
         params,
