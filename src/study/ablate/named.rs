@@ -2,7 +2,7 @@
 
 use super::piece::{Piece, Sort, without, without_observables};
 use crate::fields::{Field, Set};
-use crate::material::Law;
+use crate::material::{Law, Role};
 use crate::method::{Formulation, Gradient, Integrator};
 use crate::observable::{KINDS, fields_of_path};
 use crate::scene::Scene;
@@ -82,15 +82,10 @@ impl Named<'_> {
             }
             if material.yields() && material.law.is_none() {
                 // Laws by roles: without the strength that gives way, and the heat that comes of it.
-                let typed = |role: &&str| material.roles.contains_key(*role);
-                let mut overrides: Vec<String> = match elastic {
-                    "elastic" => vec![key("strength", elastic)],
-                    _ => ["strength", "pressure"].iter().filter(typed).map(|role| key(role, "none")).collect(),
-                };
-                if elastic != "elastic" {
-                    overrides.push(key("law", elastic));
-                }
-                overrides.extend(["heat"].iter().filter(typed).map(|role| key(role, "none")));
+                let eulerian = elastic == "elastic";
+                let gone = material.roles.keys().filter(|role| !eulerian || *role == Role::Heat.word());
+                let mut overrides: Vec<String> = gone.map(|role| key(role, "none")).collect();
+                overrides.push(key(if eulerian { "strength" } else { "law" }, elastic));
                 overrides.extend(self.without_plasticity());
                 list.push(piece(format!("plasticity of `{name}`"), overrides));
                 continue;
