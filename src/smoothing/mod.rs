@@ -109,10 +109,10 @@ impl<R: Real> Scaled<R> {
     /// [`Self::weight`] of several pairs.
     #[inline(always)]
     pub fn weights(&self, r: &[R; LANES], h: &[R; LANES]) -> [R; LANES] {
-        let mut weights = with_kernel!(self.smoothing, K => std::array::from_fn(|lane| K::shape(r[lane] / h[lane])));
-        for (weight, &h) in weights.iter_mut().zip(h) {
-            *weight = self.normalisation * *weight / self.power(h);
-        }
+        let mut weights = *r;
+        with_kernel!(self.smoothing, K => for lane in 0..LANES {
+            weights[lane] = self.normalisation * K::shape(r[lane] / h[lane]) / self.power(h[lane]);
+        });
         weights
     }
     /// (dW/dr)/r, the factor of the separation in the gradient, in 1/length^(D+2). Finite at r = 0, where a
@@ -130,9 +130,12 @@ impl<R: Real> Scaled<R> {
     /// [`Self::gradient`] of several pairs, with 1/h and [`Self::gradient_factor`] of each.
     #[inline(always)]
     pub fn gradients(&self, r: &[R; LANES], h: &[R; LANES], inverse: &[R; LANES], factor: &[R; LANES]) -> [R; LANES] {
-        with_kernel!(self.smoothing, K => {
-            std::array::from_fn(|lane| gradient_at::<K, R>(r[lane], h[lane], inverse[lane], factor[lane]))
-        })
+        // A plain loop, which the compiler turns into vector instructions.
+        let mut gradients = *r;
+        with_kernel!(self.smoothing, K => for lane in 0..LANES {
+            gradients[lane] = gradient_at::<K, R>(r[lane], h[lane], inverse[lane], factor[lane]);
+        });
+        gradients
     }
 }
 
