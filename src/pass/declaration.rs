@@ -120,11 +120,6 @@ impl Declaration {
         [fields(self.own, method), fields(self.neighbours, method)].concat()
     }
 
-    /// Fields that it reads of neighbours for a method.
-    pub fn reads_of_neighbours(&self, method: &Method) -> Vec<Field> {
-        fields(self.neighbours, method)
-    }
-
     pub fn written(&self, method: &Method) -> Vec<Field> {
         fields(self.writes, method)
     }

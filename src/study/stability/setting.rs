@@ -1,5 +1,6 @@
 //! What a scene says about the lattice whose stability is asked for.
 
+use crate::material::Law;
 use crate::method::{self, ArtificialForm, Density, Formulation};
 use crate::scene::Scene;
 use crate::scene::file::{self, ArtificialSpacing, File};
@@ -55,6 +56,11 @@ impl Setting {
             Formulation::Eulerian if typed.deformation.is_some() || typed.damage.is_some() => {
                 return refuse(
                     "study.stability has the state of a Total Lagrangian body; an Eulerian one has relative_volume and deviatoric_stress",
+                );
+            }
+            Formulation::Eulerian if body.material.pressure != Some(Law::Linear) => {
+                return refuse(
+                    "the theory of stability has a pressure linear in the density: the material's pressure must be `linear`",
                 );
             }
             Formulation::Eulerian => (Theory::Eulerian(Box::new(eulerian(scene, lattice))), None),
