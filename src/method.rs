@@ -21,6 +21,17 @@ pub enum Formulation {
     CorrectedKernel,
 }
 
+impl Formulation {
+    /// Word in a scene.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Eulerian => "eulerian",
+            Self::TotalLagrangian => "total_lagrangian",
+            Self::CorrectedKernel => "corrected_kernel",
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Density {
@@ -152,6 +163,8 @@ impl CorrectedKernel {
 pub struct Method {
     pub dimension: usize,
     pub formulation: Formulation,
+    /// No group's own method, but that of what acts between groups of different formulations: see [`crate::step`].
+    pub between: bool,
     /// Options of the corrected kernel's formulation; None in the others.
     pub corrected_kernel: Option<CorrectedKernel>,
     /// Laws of the scene's materials, each once, in order of their numbers.
@@ -199,6 +212,7 @@ impl Default for Method {
         Self {
             dimension: 2,
             formulation: Formulation::Eulerian,
+            between: false,
             corrected_kernel: None,
             laws: vec![Law::Linear, Law::Elastic],
             smoothing: Smoothing::CubicSpline,
@@ -295,7 +309,7 @@ impl Method {
     }
     /// Whether the neighbour list is made anew as the particles move.
     pub fn list_follows(&self) -> bool {
-        self.formulation == Formulation::Eulerian || self.corrected_kernel.is_some_and(|options| options.current())
+        (self.eulerian() && !self.between) || self.corrected_kernel.is_some_and(|options| options.current())
     }
     /// Whether any list, of neighbours or of contacts, is made anew as the particles move.
     pub fn listed_again(&self) -> bool {

@@ -13,6 +13,8 @@ pub struct State<S: Space> {
     pub method: Method,
     pub params: Params<S::Real>,
     pub clock: Clock<S::Real>,
+    /// The clocks of the groups that this state acts between; empty in a group's own state.
+    pub group_clocks: Vec<Clock<S::Real>>,
     pub bodies: Vec<Body<S::Real>>,
     /// Weight of the kernel sums between bodies a and b at `a * body_count + b`.
     pub coupling: Vec<S::Real>,

@@ -6,10 +6,11 @@ pub mod gpu;
 mod machine;
 pub mod shader;
 
-pub use machine::{Backend, Fetched};
+pub use machine::{Backend, Fetched, Saved};
 
 use crate::scene::Scene;
-use crate::tensor::{Line, Plane, Solid};
+use crate::state::State;
+use crate::tensor::{Line, Plane, Solid, Space};
 use std::sync::Once;
 
 /// Which backend a run is asked to use.
@@ -52,17 +53,23 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
             residual_of(scene)
         ));
     }
-    match (scene.dimension(), adapter, choice) {
-        (1, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Line<f32>>(true))?)),
-        (2, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Plane<f32>>(true))?)),
-        (_, Some(adapter), _) => Ok(Box::new(gpu::Gpu::new(&adapter, &scene.state::<Solid<f32>>(true))?)),
-        (1, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Line<f32>>(true)))),
-        (2, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Plane<f32>>(true)))),
-        (_, None, Choice::Cpu32) => Ok(Box::new(cpu::Cpu::new(scene.state::<Solid<f32>>(true)))),
-        (1, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Line<f64>>(false)))),
-        (2, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Plane<f64>>(false)))),
-        (_, None, _) => Ok(Box::new(cpu::Cpu::new(scene.state::<Solid<f64>>(false)))),
+    let single = *choice == Choice::Cpu32;
+    match (scene.dimension(), adapter) {
+        (1, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Line<f32>>(scene, true))?)),
+        (2, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Plane<f32>>(scene, true))?)),
+        (_, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Solid<f32>>(scene, true))?)),
+        (1, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Line<f32>>(scene, true)))),
+        (2, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Plane<f32>>(scene, true)))),
+        (_, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Solid<f32>>(scene, true)))),
+        (1, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Line<f64>>(scene, false)))),
+        (2, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Plane<f64>>(scene, false)))),
+        (_, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Solid<f64>>(scene, false)))),
     }
+}
+
+/// The first states of all members of a run.
+fn states<S: Space>(scene: &Scene, compensated: bool) -> Vec<State<S>> {
+    scene.members().map(|member| member.state::<S>(compensated)).collect()
 }
 
 /// Smallest quasi_static.residual that f32 is trusted with: rounding of the strains alone leaves 1e-6 and more.
@@ -75,7 +82,7 @@ fn residual_of(scene: &Scene) -> f64 {
 /// Refuses a scene whose tables do not fit: drivers overcommit, and fail later without a word.
 fn budget(scene: &Scene, adapter: Option<&wgpu::Adapter>, choice: &Choice) -> Result<(), String> {
     let single = adapter.is_some() || *choice == Choice::Cpu32;
-    let needed = scene.state_bytes(if single { 4 } else { 8 }, single);
+    let needed = scene.run_bytes(if single { 4 } else { 8 }, single);
     let device = adapter.map(device::DeviceInfo::of).filter(|info| !info.software).and_then(|info| info.memory);
     let Some(there) = device.or_else(available_memory) else { return Ok(()) };
     if needed <= there {

@@ -177,7 +177,7 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
         return Err("selects no particle".into());
     }
     check_numbers(typed)?;
-    let present = crate::step::fields(&scene.method);
+    let present = scene.fields();
     if let Some(missing) = moment::needed(scene, kind.fields).iter().find(|field| !present.contains(field)) {
         return Err(format!("needs the field {}, which this scene does not name", missing.name()));
     }

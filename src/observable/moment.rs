@@ -47,7 +47,15 @@ fn quantity(path: &str) -> Result<&'static (&'static str, usize, &'static [Field
 /// Fields that a scene cannot do without where `fields` are named: in the Total Lagrangian formulation volume,
 /// stress and energy follow from the deformation gradient. Only some scenes have a deviator: see [`read`].
 pub fn needed(scene: &Scene, fields: &[Field]) -> Vec<Field> {
-    let lagrangian = scene.method.finite_strain();
+    let mut list: Vec<Field> = scene.groups().iter().flat_map(|group| needed_by(group, fields)).collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+/// The same of one group.
+fn needed_by(group: &Scene, fields: &[Field]) -> Vec<Field> {
+    let lagrangian = group.method.finite_strain();
     let kept = |field: &Field| match field {
         Field::DeviatoricStress => None,
         Field::VolumetricStrain if lagrangian => Some(Field::DisplacementGradient),
@@ -58,7 +66,7 @@ pub fn needed(scene: &Scene, fields: &[Field]) -> Vec<Field> {
 
 /// The fields of [`needed`], and beside them those that only some scenes have, where this scene has them.
 pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
-    let present = crate::step::fields(&scene.method);
+    let present = scene.fields();
     let mut list = needed(scene, fields);
     if fields.contains(&Field::VolumetricStrain) {
         list.extend([Field::DeviatoricStress, Field::InelasticStrain, Field::DissipatedEnergy]);
@@ -82,7 +90,7 @@ pub fn check_quantity(scene: &Scene, name: &str) -> Result<(), String> {
     if *word != name {
         return Err(format!("reads `{name}`, a part: name the whole `{word}`"));
     }
-    let present = crate::step::fields(&scene.method);
+    let present = scene.fields();
     match needed(scene, fields).iter().find(|field| !present.contains(field)) {
         Some(field) => Err(format!("reads {word}, and this scene has no field {}", field.name())),
         None => Ok(()),
@@ -158,7 +166,7 @@ impl<'a> Moment<'a> {
 
     /// In a Total Lagrangian scene, what all else follows from.
     fn deformation(&self, i: usize) -> Option<Deformation> {
-        (self.scene.method.finite_strain()).then(|| Deformation::of(self, i))
+        (self.scene.group_of(i).method.finite_strain()).then(|| Deformation::of(self, i))
     }
 
     /// Reference density over density, minus 1.

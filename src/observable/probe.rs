@@ -18,9 +18,9 @@ fn probe(moment: &Moment, observer: &Observer) -> f64 {
 /// Sum of V f W over sum of V W: exact for a constant, whatever part of the kernel lies outside the body.
 fn interpolate(moment: &Moment, at: DVec3, path: &str) -> f64 {
     let scene = moment.scene;
-    let smoothing = scene.file.formulation.smoothing;
     let (mut particles, mut weights) = (Vec::new(), Vec::new());
     for i in 0..moment.count() {
+        let smoothing = scene.group_of(i).method.smoothing;
         let h = scene.bodies[scene.particles[i].body as usize].smoothing_length;
         let distance = DVec3::from_array(moment.position(i)).distance(at);
         let weight = scene.particles[i].volume * smoothing.value(distance, h, scene.dimension());

@@ -9,6 +9,7 @@ mod begin_load;
 mod bin_cells;
 mod bond_force;
 mod bond_friction;
+mod bound_between;
 mod bound_residual;
 mod bound_time_step;
 mod carry_facets;
@@ -161,6 +162,7 @@ passes! {
     descend: Descend,
     bound_residual: BoundResidual,
     bound_time_step: BoundTimeStep,
+    bound_between: BoundBetween,
 }
 
 impl Pass {

@@ -1,9 +1,7 @@
 //! What a run needs to go on with the same bits: the carried fields in their order, time and step.
 
-use crate::backend::Backend;
-use crate::fields::Field;
+use crate::backend::{Backend, Saved};
 use crate::scene::Scene;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A stored state.
@@ -17,20 +15,14 @@ pub struct Checkpoint {
     /// Scene as resolved, and device, that made it.
     pub scene: String,
     pub device: String,
-    pub columns: BTreeMap<Field, Vec<u8>>,
+    /// The carried fields of each group of particles.
+    pub groups: Vec<Saved>,
 }
 
 impl Checkpoint {
-    pub fn new(
-        scene: &Scene,
-        backend: &dyn Backend,
-        event: usize,
-        time: f64,
-        steps: u32,
-        columns: BTreeMap<Field, Vec<u8>>,
-    ) -> Self {
+    pub fn new(scene: &Scene, backend: &dyn Backend, event: usize, time: f64, steps: u32, groups: Vec<Saved>) -> Self {
         let (name, variant, scene) = (scene.name.clone(), scene.variant.clone(), scene.text.clone());
-        Self { event, time, steps, name, variant, scene, device: backend.describe(), columns }
+        Self { event, time, steps, name, variant, scene, device: backend.describe(), groups }
     }
 
     /// Refuses a checkpoint of another scene, which could not give the same bits.
@@ -55,8 +47,14 @@ impl Checkpoint {
 
 #[cfg(feature = "hdf5")]
 mod stored {
-    use super::{BTreeMap, Checkpoint, Field, Path};
+    use super::{Checkpoint, Path, Saved};
+    use crate::fields::Field;
     use crate::output::vtkhdf::reason;
+
+    /// Where the file has the fields of a group of particles.
+    fn place(group: usize) -> String {
+        if group == 0 { "fields".into() } else { format!("fields_{group}") }
+    }
 
     impl Checkpoint {
         /// Written aside and renamed, so that the folder always holds a whole one.
@@ -76,9 +74,11 @@ mod stored {
                     file.new_dataset_builder().with_data(text.as_bytes()).create(name)?;
                 }
             }
-            let group = file.create_group("fields")?;
-            for (field, bytes) in &self.columns {
-                group.new_dataset_builder().with_data(bytes.as_slice()).create(field.name())?;
+            for (k, columns) in self.groups.iter().enumerate() {
+                let group = file.create_group(&place(k))?;
+                for (field, bytes) in columns {
+                    group.new_dataset_builder().with_data(bytes.as_slice()).create(field.name())?;
+                }
             }
             file.flush()
         }
@@ -98,12 +98,16 @@ mod stored {
         let text = |name: &str| -> hdf5::Result<String> {
             Ok(String::from_utf8_lossy(&file.dataset(name)?.read_raw::<u8>()?).into_owned())
         };
-        let group = file.group("fields")?;
-        let mut columns = BTreeMap::new();
-        for &field in Field::ALL {
-            if group.link_exists(field.name()) {
-                columns.insert(field, group.dataset(field.name())?.read_raw::<u8>()?);
+        let mut groups = Vec::new();
+        for name in (0..).map(place).take_while(|name| file.link_exists(name)) {
+            let group = file.group(&name)?;
+            let mut columns = Saved::new();
+            for &field in Field::ALL {
+                if group.link_exists(field.name()) {
+                    columns.insert(field, group.dataset(field.name())?.read_raw::<u8>()?);
+                }
             }
+            groups.push(columns);
         }
         Ok(Checkpoint {
             event: progress[0] as usize,
@@ -113,7 +117,7 @@ mod stored {
             variant: if file.link_exists("variant") { Some(text("variant")?) } else { None },
             scene: text("scene")?,
             device: text("device")?,
-            columns,
+            groups,
         })
     }
 }

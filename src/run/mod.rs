@@ -84,7 +84,7 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     let scene = &Scene { name: saved.name.clone(), variant: saved.variant.clone(), ..scene.clone() };
     let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     saved.check_device(&*backend).map_err(Stop::Refused)?;
-    backend.load(&saved.columns).map_err(Stop::Refused)?;
+    backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
@@ -304,8 +304,8 @@ impl<'a> Run<'a> {
         }
         if frame {
             files.frame(self.scene, moment)?;
-            let columns = self.backend.save()?;
-            let saved = Checkpoint::new(self.scene, &*self.backend, self.event, moment.time, self.steps, columns);
+            let groups = self.backend.save()?;
+            let saved = Checkpoint::new(self.scene, &*self.backend, self.event, moment.time, self.steps, groups);
             files.checkpoint(&saved)?;
         }
         Ok(())

@@ -50,18 +50,19 @@ impl Summary {
         watch: &Stopwatch,
     ) -> Result<Self, String> {
         let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
-        let forces = step::step(&scene.method).iter().filter(|call| call.pass.is_force()).count() as u64;
+        let forces = step::step(&scene.groups()[0].method).iter().filter(|call| call.pass.is_force()).count() as u64;
         let begun = scene.file.quasi_static.as_ref().map_or(0, |typed| u64::from(typed.load_steps));
         let counts = backend.fetch(&[Field::NeighborCount])?;
         let particles = scene.particles.len();
+        let passes = step::passes_of(&scene.methods());
         Ok(Self {
             device: backend.describe(),
             particles,
             neighbors: counts[&Field::NeighborCount].iter().sum::<f64>() / particles as f64,
             steps,
             lists_built,
-            passes: step::passes(&scene.method).iter().map(|p| p.name()).collect(),
-            fields: step::fields(&scene.method).iter().map(|f| f.name()).collect(),
+            passes: passes.iter().map(|pass| pass.name()).collect(),
+            fields: scene.fields().iter().map(|f| f.name()).collect(),
             bytes: backend.bytes(),
             seconds,
             processor_seconds,

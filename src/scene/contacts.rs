@@ -1,6 +1,7 @@
 //! How bodies touch: from what is typed to the table of pairs of bodies.
 
 use super::file::{ColourField, ContactTable, File, PairPotential, Zones};
+use super::groups::{Group, across};
 use super::refuse::Refuse;
 use super::{Scene, SceneBody, copies};
 use crate::contact::zones::Options;
@@ -33,7 +34,12 @@ pub(super) fn laws(file: &File) -> Laws {
 
 /// The table of contact between bodies a and b. The names of the bodies and the kernel sums between them have been checked
 /// before.
-pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
+pub(super) fn pairs(
+    file: &File,
+    bodies: &[SceneBody],
+    groups: &[Group],
+    refuse: &Refuse,
+) -> Result<Vec<Vec<ContactPair<f64>>>, String> {
     let mut table = vec![vec![ContactPair::default(); bodies.len()]; bodies.len()];
     for (k, contact) in file.contact.iter().enumerate() {
         let at = k.to_string();
@@ -49,16 +55,22 @@ pub(super) fn pairs(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Resul
         refuse.unless(laws.iter().filter(|named| **named).count() < 2, &path, || {
             "two bodies touch by one law: name only one of potential, colour_field and zones".into()
         })?;
+        let across = across(groups, file, contact);
         if laws.contains(&true) {
-            may_touch(file, &path, refuse)?;
+            let kinds = groups.iter().filter(|group| contact.between.iter().any(|word| group.has(file, word))).map(Group::kind);
+            may_touch(file, kinds, &path, refuse)?;
         }
+        refuse.unless(!across || contact.zones.is_none(), &path, || {
+            "zones belong to bodies of one formulation: between these name a potential or a colour_field".into()
+        })?;
         for (a, b) in copies::pairs(bodies, &contact.between) {
             let Some(pair) = pair_of(file, bodies, contact, (&at, [&bodies[a], &bodies[b]]), refuse)? else { continue };
-            let lagrangian = file.formulation.kind == Formulation::TotalLagrangian;
+            let of_a = groups.iter().find(|group| group.bodies.contains(&a));
+            let lagrangian = of_a.is_some_and(|group| group.kind() == Formulation::TotalLagrangian);
             refuse.unless(lagrangian || a != b, &path, || {
                 "a body touches itself through the kernel already: self-contact needs formulation.kind `total_lagrangian`".into()
             })?;
-            refuse.unless(lagrangian || contact.kernel == Some(0.0), &path, || {
+            refuse.unless(lagrangian || across || contact.kernel == Some(0.0), &path, || {
                 "in the Eulerian formulation a law of contact takes the kernel's place: name kernel = 0 beside it".into()
             })?;
             let free = table[a][b].range == 0.0;
@@ -89,9 +101,8 @@ fn pair_of(
 }
 
 /// Refuses a scene that no law of contact works in.
-fn may_touch(file: &File, path: &[&str], refuse: &Refuse) -> Result<(), String> {
-    let kind = file.formulation.kind;
-    refuse.unless(kind != Formulation::CorrectedKernel, path, || {
+fn may_touch(file: &File, mut kinds: impl Iterator<Item = Formulation>, path: &[&str], refuse: &Refuse) -> Result<(), String> {
+    refuse.unless(kinds.all(|kind| kind != Formulation::CorrectedKernel), path, || {
         "a law of contact needs formulation.kind `total_lagrangian` or `eulerian`".into()
     })?;
     refuse.unless(file.symmetry.is_empty(), path, || {

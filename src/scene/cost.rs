@@ -14,7 +14,7 @@ impl Scene {
         if particles * steps < MUCH {
             return None;
         }
-        let gigabytes = |word| self.state_bytes(word, word == 4) as f64 / 1e9;
+        let gigabytes = |word| self.run_bytes(word, word == 4) as f64 / 1e9;
         Some(format!(
             "{particles:.0} particles take {:.1} GB on a GPU, {:.1} GB on the CPU; about {steps:.0} steps, {:.1e} particle-updates",
             gigabytes(4),
@@ -23,8 +23,17 @@ impl Scene {
         ))
     }
 
-    /// Steps at the length that the first one has.
+    /// Bytes that the columns of all members of a run take where a number has `word` bytes.
+    pub fn run_bytes(&self, word: usize, compensated: bool) -> u64 {
+        self.members().map(|member| member.state_bytes(word, compensated)).sum()
+    }
+
+    /// Steps at the length that the first one has, that of the group whose step is the shortest.
     fn likely_steps(&self) -> f64 {
+        self.groups().iter().map(Scene::likely_steps_alone).fold(0.0, f64::max)
+    }
+
+    fn likely_steps_alone(&self) -> f64 {
         let file = &self.file;
         if let Some(descent) = &file.quasi_static {
             return f64::from(descent.load_steps) * DESCENT;

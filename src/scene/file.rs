@@ -35,8 +35,12 @@ pub struct File {
     pub ci: bool,
     pub body: Vec<BodyTable>,
     pub material: BTreeMap<String, MaterialTable>,
+    /// The formulation of all bodies that name none.
     #[serde(default)]
     pub formulation: FormulationTable,
+    /// `[formulation.NAME]`, for the bodies that name it.
+    #[serde(default)]
+    pub formulations: BTreeMap<String, FormulationTable>,
     #[serde(default)]
     pub contact: Vec<ContactTable>,
     #[serde(default)]
@@ -127,6 +131,8 @@ pub struct BodyTable {
     /// A point of the lattice; the origin unless given.
     pub anchor: Option<Coordinates>,
     pub material: String,
+    /// Name of a `[formulation.NAME]`; the plain `[formulation]` unless given.
+    pub formulation: Option<String>,
     pub velocity: Option<Coordinates>,
     /// Angular velocity about `spin_axis` (z unless given) through `spin_center`.
     #[serde(default)]
@@ -206,7 +212,7 @@ pub struct Kick {
     pub velocity: Coordinates,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulationTable {
     pub kind: Formulation,
@@ -282,7 +288,7 @@ impl FormulationTable {
     }
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Viscosity {
     pub alpha: f64,
@@ -293,7 +299,7 @@ pub struct Viscosity {
     pub softening: f64,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArtificialStress {
     #[serde(default)]

@@ -2,9 +2,12 @@
 
 use super::members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 use super::{copies, file, shape};
+use crate::fields::Field;
 use crate::method::Method;
 use crate::rows::{ContactPair, FacetPair};
+use crate::step;
 use glam::DVec3;
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 /// A scene ready to run.
@@ -16,7 +19,14 @@ pub struct Scene {
     pub file: file::File,
     /// What is stored as `run.toml`.
     pub text: String,
+    /// The method of all bodies; or, where the scene has [`Self::parts`], that of what acts between them.
     pub method: Method,
+    /// The groups of bodies that step apart from each other, each as a scene of its own; empty where all bodies are one group.
+    pub parts: Vec<Scene>,
+    /// Of a part: number in the whole scene of its first particle. The others follow.
+    pub first_number: u32,
+    /// Of a part: index in the whole scene of each of its bodies, and how many bodies that has. None in a whole scene.
+    pub part_of: Option<(Vec<usize>, usize)>,
     pub bodies: Vec<SceneBody>,
     /// Weight of the kernel sums between bodies a and b.
     pub coupling: Vec<Vec<f64>>,
@@ -42,6 +52,47 @@ pub struct Scene {
 impl Scene {
     pub fn dimension(&self) -> usize {
         self.method.dimension
+    }
+
+    /// The groups of bodies that step apart from each other: most often the scene itself.
+    pub fn groups(&self) -> &[Scene] {
+        if self.parts.is_empty() { std::slice::from_ref(self) } else { &self.parts }
+    }
+
+    /// What a run steps: the groups and, where there are several, what acts between them.
+    pub fn members(&self) -> impl Iterator<Item = &Scene> {
+        self.groups().iter().chain((!self.parts.is_empty()).then_some(self))
+    }
+
+    pub fn methods(&self) -> Vec<Method> {
+        self.members().map(|member| member.method.clone()).collect()
+    }
+
+    /// The group of a particle.
+    pub fn group_of(&self, number: usize) -> &Scene {
+        let after = self.groups().partition_point(|group| group.first_number as usize <= number);
+        &self.groups()[after - 1]
+    }
+
+    /// Fields that some member has, in the order of their list.
+    pub fn fields(&self) -> Vec<Field> {
+        let needed: BTreeSet<Field> = self.members().flat_map(|member| step::fields(&member.method)).collect();
+        needed.into_iter().collect()
+    }
+
+    /// Refuses a scene of several groups where only one formulation is understood.
+    ///
+    /// # Errors
+    /// One sentence that begins with the scene.
+    pub fn one_group(&self, what: &str) -> Result<(), String> {
+        if self.parts.is_empty() {
+            return Ok(());
+        }
+        Err(format!(
+            "{}: {what} takes a scene whose bodies have one formulation; here they form {} groups",
+            self.label(),
+            self.parts.len()
+        ))
     }
 
     /// Names of the units of length, mass and time.

@@ -7,6 +7,8 @@ pub(super) struct Refuse<'a> {
     pub source: &'a Source,
     /// For each body, copies among them, the place where it was typed.
     pub typed_at: &'a [usize],
+    /// Name of the formulation that a path to `formulation` means; None for the plain one.
+    pub formulation: Option<&'a str>,
 }
 
 impl Refuse<'_> {
@@ -16,6 +18,9 @@ impl Refuse<'_> {
         let mut path = path.to_vec();
         if let Some(typed) = &typed {
             path[1] = typed;
+        }
+        if let (Some(&"formulation"), Some(name)) = (path.first(), self.formulation) {
+            path.insert(1, name);
         }
         format!("{}: {}", self.source.place(&path), message.into())
     }

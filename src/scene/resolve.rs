@@ -2,7 +2,8 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, Axis, File, Fixed};
+use super::file::{ArtificialSpacing, Axis, File, Fixed, FormulationTable};
+use super::groups::{Group, across, groups, of_body};
 use super::material::Material;
 use super::packing::fill;
 use super::read::{Read, hint};
@@ -21,29 +22,39 @@ use std::sync::OnceLock;
 /// One sentence that begins with the place of what is impossible.
 pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let Read { mut file, source, variant, resolved_text: text, .. } = read;
-    let typed_at = expand(&mut file)
-        .map_err(|(k, message)| Refuse { source: &source, typed_at: &[] }.at(&["body", &k.to_string(), "copies"], message))?;
-    let refuse = Refuse { source: &source, typed_at: &typed_at };
+    let typed_at = expand(&mut file).map_err(|(k, message)| {
+        let refuse = Refuse { source: &source, typed_at: &[], formulation: None };
+        refuse.at(&["body", &k.to_string(), "copies"], message)
+    })?;
+    let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: None };
     numbers(&file, &refuse)?;
+    let groups = groups(&file, &refuse)?;
+    if let [only] = &groups[..] {
+        // What asks the scene for its formulation means that of its bodies, also where it has a name.
+        file.formulation = only.formulation.clone();
+    }
     let bodies = bodies(&file, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
+    // The particles of a group follow each other. The sort is stable: of one group they keep their order.
+    particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
     let mut constraints = constraints(&file, &bodies, &mut particles, &refuse)?;
-    let coupling = coupling(&file, &bodies, &refuse)?;
-    let contacts = contacts::pairs(&file, &bodies, &refuse)?;
+    let coupling = coupling(&file, &bodies, &groups, &refuse)?;
+    let contacts = contacts::pairs(&file, &bodies, &groups, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
-    let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, refuse: &refuse };
+    let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, groups: &groups, refuse: &refuse };
     let facet_pairs = parts.gaps()?;
     let obstacles = parts.obstacles(&mut constraints)?;
     let facets = parts.facets(&facet_pairs, &obstacles);
-    let method = method(&file, &bodies, &coupling, &constraints, &planes, period, &refuse)?;
-    let artificial_spacing = artificial_spacing(&file, &bodies, &particles);
-    Ok(Scene {
+    let mut scene = Scene {
         name,
         variant,
         file,
         text,
-        method,
+        method: Method::default(),
+        parts: Vec::new(),
+        first_number: 0,
+        part_of: None,
         bodies,
         coupling,
         contacts,
@@ -54,8 +65,40 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         particles,
         period,
         planes,
-        artificial_spacing,
+        artificial_spacing: 0.0,
         most_bonds: OnceLock::new(),
+    };
+    if let [only] = &groups[..] {
+        let named = Refuse { formulation: only.name.as_deref(), ..refuse };
+        scene.method = method(&scene, &named)?;
+        scene.artificial_spacing = artificial_spacing(&scene.file, &scene.bodies, &scene.particles);
+        return Ok(scene);
+    }
+    several(&scene, &groups, &refuse)?;
+    for group in &groups {
+        let mut part = scene.part(group);
+        let typed_at: Vec<usize> = group.bodies.iter().map(|&k| typed_at[k]).collect();
+        let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: group.name.as_deref() };
+        part.method = method(&part, &refuse)?;
+        part.artificial_spacing = artificial_spacing(&part.file, &part.bodies, &part.particles);
+        scene.parts.push(part);
+    }
+    scene.method = scene.method_between(&groups);
+    scene.leave_to_parts(&groups);
+    Ok(scene)
+}
+
+/// Refuses what a scene of several groups cannot have.
+fn several(scene: &Scene, groups: &[Group], refuse: &Refuse) -> Result<(), String> {
+    refuse.unless(scene.file.quasi_static.is_none(), &["quasi_static"], || {
+        "equilibrium is sought for bodies of one formulation, and this scene has several".into()
+    })?;
+    let carries = |group: &&Group| {
+        let bodies = scene.facets.iter().map(|facet| scene.particles[facet.owner as usize].body as usize);
+        bodies.into_iter().any(|body| group.bodies.contains(&body))
+    };
+    refuse.unless(groups.iter().filter(carries).count() < 2, &["contact"], || {
+        "gaps and obstacles are for bodies of one formulation, and in this scene those of several have them".into()
     })
 }
 
@@ -70,7 +113,6 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     };
     one(file.spacing, &["spacing"], "spacing")?;
     one(file.duration, &["duration"], "duration")?;
-    one(file.formulation.smoothing_length, &["formulation", "smoothing_length"], "smoothing_length (in spacings)")?;
     one(file.time.cfl, &["time", "cfl"], "cfl")?;
     if let Some(step) = file.time.step {
         one(step, &["time", "step"], "step")?;
@@ -78,7 +120,10 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     let fits = file.body_force.as_ref().is_none_or(|g| g.len() == file.dimension);
     refuse.unless(fits, &["body_force"], || format!("body_force takes {} components", file.dimension))?;
     outputs(file, refuse)?;
-    weights(file, refuse)?;
+    weights(&file.formulation, refuse)?;
+    for (name, formulation) in &file.formulations {
+        weights(formulation, &Refuse { formulation: Some(name), ..*refuse })?;
+    }
     if let Some(course) =
         file.boundary.iter().find(|b| b.course.as_ref().is_some_and(|c| c.windows(2).any(|w| w[1][0] <= w[0][0])))
     {
@@ -111,9 +156,12 @@ fn outputs(file: &File, refuse: &Refuse) -> Result<(), String> {
     })
 }
 
-/// Weights and coefficients of the formulation.
-fn weights(file: &File, refuse: &Refuse) -> Result<(), String> {
-    let f = &file.formulation;
+/// Weights and coefficients of a formulation.
+fn weights(f: &FormulationTable, refuse: &Refuse) -> Result<(), String> {
+    let fits = f.smoothing_length > 0.0 && f.smoothing_length.is_finite();
+    refuse.unless(fits, &["formulation", "smoothing_length"], || {
+        format!("smoothing_length (in spacings) must be a positive number, found {}", f.smoothing_length)
+    })?;
     let fits = f.list_margin.is_none_or(|margin| (0.02..=1.0).contains(&margin));
     refuse
         .unless(fits, &["formulation", "list_margin"], || "list_margin must lie between 0.02 and 1 smoothing lengths".into())?;
@@ -152,7 +200,8 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             return Err(refuse_at("material", format!("no [material.{}]{hint}", typed.material)));
         };
         let named = |message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material));
-        let material = Material::resolve(material, file.formulation.kind).map_err(named)?;
+        let formulation = of_body(file, k).unwrap_or(&file.formulation);
+        let material = Material::resolve(material, formulation.kind).map_err(named)?;
         let relative_volume = typed.relative_volume.unwrap_or(1.0);
         if !(relative_volume > 0.0 && relative_volume.is_finite()) {
             return Err(refuse_at(
@@ -179,7 +228,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             name: typed.name.clone(),
             group: typed.group.clone().unwrap_or_else(|| typed.name.clone()),
             spacing,
-            smoothing_length: file.formulation.smoothing_length * spacing,
+            smoothing_length: formulation.smoothing_length * spacing,
             material,
             relative_volume,
             deviator,
@@ -300,13 +349,16 @@ fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3
     Ok((prescribed, vector))
 }
 
-fn coupling(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
-    // Where kernel sums run over the reference configuration, bodies share no bonds: their weight is 0.
-    let f = &file.formulation;
-    let reference = f.kind == Formulation::TotalLagrangian || f.configuration == Some(Configuration::Reference);
-    let apart = if reference { 0.0 } else { 1.0 };
-    let mut table = vec![vec![apart; bodies.len()]; bodies.len()];
-    (0..bodies.len()).for_each(|k| table[k][k] = 1.0);
+fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {
+    // Bodies of different groups share no kernel sums. Nor do two bodies where sums run over the reference configuration.
+    let mut table = vec![vec![0.0; bodies.len()]; bodies.len()];
+    for group in groups {
+        let f = &group.formulation;
+        let reference = f.kind == Formulation::TotalLagrangian || f.configuration == Some(Configuration::Reference);
+        for &a in &group.bodies {
+            group.bodies.iter().for_each(|&b| table[a][b] = if reference && a != b { 0.0 } else { 1.0 });
+        }
+    }
     for (k, contact) in file.contact.iter().enumerate() {
         let at = k.to_string();
         let path = ["contact", &at, "between"];
@@ -322,8 +374,14 @@ fn coupling(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Ve
         refuse.unless((0.0..=1.0).contains(&kernel), &["contact", &at, "kernel"], || {
             format!("kernel must lie between 0 (off) and 1 (as one body), found {kernel}")
         })?;
-        refuse.unless(apart > 0.0 || kernel == 0.0, &["contact", &at, "kernel"], || {
-            "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
+        let meets = touching.iter().all(|&(a, b)| table[a][b] > 0.0);
+        refuse.unless(meets || kernel == 0.0, &["contact", &at, "kernel"], || {
+            if across(groups, file, contact) {
+                "bodies whose formulations differ in more than numbers have no kernel sums with each other: kernel must be 0"
+                    .into()
+            } else {
+                "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
+            }
         })?;
         for (a, b) in touching {
             (table[a][b], table[b][a]) = (kernel, kernel);
@@ -362,15 +420,9 @@ fn period(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<[f64; 3]
     Ok(period)
 }
 
-fn method(
-    file: &File,
-    bodies: &[SceneBody],
-    coupling: &[Vec<f64>],
-    constraints: &[SceneConstraint],
-    planes: &[Plane],
-    period: [f64; 3],
-    refuse: &Refuse,
-) -> Result<Method, String> {
+/// The method of a scene of one group.
+fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
+    let (file, bodies) = (&scene.file, &scene.bodies);
     let f = &file.formulation;
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
         "xsph and velocity_filter are two uses of one average: name one of them".into()
@@ -389,6 +441,8 @@ fn method(
     let mut laws: Vec<Law> = bodies.iter().flat_map(|body| body.material.laws()).collect();
     laws.sort_unstable();
     laws.dedup();
+    let held = scene.particles.iter().any(|particle| particle.constraint != 0);
+    let driven = scene.obstacles.iter().any(|obstacle| obstacle.condition.is_some());
     let body_force = file.body_force.as_ref().is_some_and(|g| g.iter().any(|&x| x != 0.0));
     Ok(Method {
         dimension: file.dimension,
@@ -398,20 +452,21 @@ fn method(
         density: f.density,
         gradient: f.gradient(),
         formulation: f.kind,
+        between: false,
         corrected_kernel,
         laws,
         hourglass: lagrangian && file.hourglass() > 0.0,
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
         shear: bodies.iter().any(|b| b.material.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
-        coupling: coupling.iter().flatten().any(|&c| c != 1.0),
-        constraints: !constraints.is_empty(),
-        symmetry: !planes.is_empty(),
-        periodic: period.iter().any(|&p| p > 0.0),
+        coupling: scene.coupling.iter().flatten().any(|&c| c != 1.0),
+        constraints: held || driven,
+        symmetry: !scene.planes.is_empty(),
+        periodic: scene.period.iter().any(|&p| p > 0.0),
         body_force,
         contact: contacts::laws(file),
         gap: file.contact.iter().find_map(|contact| contact.gap.as_ref()).map(|gap| gap.form),
-        obstacles: !file.obstacle.is_empty(),
+        obstacles: !scene.obstacles.is_empty(),
         friction: rubs(file),
         viscosity: f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0),
         xsph: f.xsph.is_some_and(|w| w > 0.0),

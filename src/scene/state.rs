@@ -35,13 +35,14 @@ impl Scene {
             method,
             params,
             clock: Clock::default(),
-            bodies: self.bodies.iter().map(super::SceneBody::numbers).collect(),
-            coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
-            facet_pairs: self.facet_pairs.iter().flatten().map(|pair| pair.map(real)).collect(),
-            obstacles: self.obstacles.iter().map(|obstacle| obstacle.shape.cast()).collect(),
-            movers: self.obstacles.iter().map(super::SceneObstacle::mover).collect(),
-            obstacle_pairs: self.obstacles.iter().flat_map(|o| &o.pairs).map(|pair| pair.map(real)).collect(),
-            contact_pairs: self.contacts.iter().flatten().map(|pair| pair.map(real)).collect(),
+            group_clocks: vec![Clock::default(); self.parts.len()],
+            bodies: self.by_body(&self.bodies.iter().map(super::SceneBody::numbers).collect::<Vec<_>>()),
+            coupling: self.by_pair(&self.coupling).into_iter().map(real).collect(),
+            facet_pairs: self.by_pair(&self.facet_pairs).iter().map(|pair| pair.map(real)).collect(),
+            obstacles: self.own_obstacles().iter().map(|obstacle| obstacle.shape.cast()).collect(),
+            movers: self.own_obstacles().iter().map(super::SceneObstacle::mover).collect(),
+            obstacle_pairs: self.own_obstacles().iter().flat_map(|o| self.by_body(&o.pairs)).map(|pair| pair.map(real)).collect(),
+            contact_pairs: self.by_pair(&self.contacts).iter().map(|pair| pair.map(real)).collect(),
             constraints: Vec::new(),
             course: Vec::new(),
             bond_table: BondTable::default(),
@@ -82,7 +83,7 @@ impl Scene {
         let columns = &mut state.columns;
         for (i, particle) in self.particles.iter().enumerate() {
             let body = &self.bodies[particle.body as usize];
-            columns.number[i] = i as u32;
+            columns.number[i] = self.first_number + i as u32;
             columns.reference_position[i] = S::vec_from(particle.position.to_array());
             columns.reference_volume[i] = S::Real::of(particle.volume);
             columns.velocity[i] = S::vec_from(particle.velocity.to_array());
@@ -93,7 +94,7 @@ impl Scene {
                 *slot = S::Real::of(body.material.temperature());
             }
             if let Some(slot) = columns.body.get_mut(i) {
-                *slot = particle.body;
+                *slot = self.body_number(particle);
             }
             if let Some(slot) = columns.constraint.get_mut(i) {
                 *slot = particle.constraint;
@@ -111,7 +112,7 @@ impl Scene {
 
     fn fill_facets<S: Space>(&self, state: &mut State<S>) {
         let columns = &mut state.columns;
-        for (e, facet) in self.facets.iter().enumerate() {
+        for (e, facet) in self.own_facets().iter().enumerate() {
             let owner = facet.owner as usize;
             if columns.facets[owner] == 0 {
                 columns.first_facet[owner] = e as u32;
@@ -122,7 +123,7 @@ impl Scene {
             columns.facet_reference_normal[e] = S::vec_from(facet.piece.normal.to_array());
             columns.facet_area[e] = S::Real::of(facet.piece.area);
         }
-        for (k, obstacle) in self.obstacles.iter().enumerate() {
+        for (k, obstacle) in self.own_obstacles().iter().enumerate() {
             columns.obstacle_velocity[k] = S::vec_from(obstacle.velocity.to_array());
         }
     }
@@ -139,6 +140,9 @@ impl Scene {
     }
 
     fn reach(&self) -> f64 {
+        if self.method.between {
+            return 0.0;
+        }
         let margin = if self.method.list_follows() { self.margin() } else { 0.0 };
         2.0 * self.smoothing_length() + margin
     }
@@ -173,7 +177,8 @@ impl Scene {
 
     /// If all pairs of touching bodies have the same numbers, the index of one such pair plus 1; 0 if the pairs differ.
     fn facet_alike(&self) -> u32 {
-        let mut touching = self.facet_pairs.iter().flatten().enumerate().filter(|(_, pair)| pair.stiffness > 0.0);
+        let pairs = self.by_pair(&self.facet_pairs);
+        let mut touching = pairs.iter().enumerate().filter(|(_, pair)| pair.stiffness > 0.0);
         let Some((place, first)) = touching.next() else { return 0 };
         if touching.all(|(_, pair)| pair == first) { place as u32 + 1 } else { 0 }
     }
@@ -181,7 +186,7 @@ impl Scene {
     /// Largest distance from a facet to the particle that carries it.
     fn longest_lever(&self) -> f64 {
         let lever = |facet: &super::SceneFacet| facet.piece.position.distance(self.particles[facet.owner as usize].position);
-        self.facets.iter().map(lever).fold(0.0, f64::max)
+        self.own_facets().iter().map(lever).fold(0.0, f64::max)
     }
 
     /// Entries that a facet's list can hold: the facets that two flat faces have within reach, and 16 to spare.
@@ -200,11 +205,11 @@ impl Scene {
         let stiffness = |body: usize| {
             // Each of two surfaces measures its gap to the other, so a body feels the stiffness twice.
             let own = self.facet_pairs.iter().map(|row| 2.0 * row[body].stiffness);
-            own.chain(self.obstacles.iter().map(|obstacle| obstacle.pairs[body].stiffness)).fold(0.0, f64::max)
+            own.chain(self.own_obstacles().iter().map(|obstacle| obstacle.pairs[body].stiffness)).fold(0.0, f64::max)
         };
         let stiffness: Vec<f64> = (0..self.bodies.len()).map(stiffness).collect();
         let mut rates = vec![0.0; self.particles.len()];
-        for facet in &self.facets {
+        for facet in self.own_facets() {
             let particle = &self.particles[facet.owner as usize];
             let body = &self.bodies[particle.body as usize];
             let way = facet.piece.position.distance_squared(particle.position) / (body.spacing * body.spacing);
@@ -227,6 +232,9 @@ impl Scene {
     /// that follows the particles gets what the densest packing holds within reach and half as much again (in the plane,
     /// where clumps form more easily, twice as much), since Eulerian particles may crowd.
     fn list_capacity(&self) -> u32 {
+        if self.method.between {
+            return 0;
+        }
         if !self.method.list_follows() {
             return *self.most_bonds.get_or_init(|| self.most_neighbors(self.reach()).max(1));
         }
@@ -268,12 +276,12 @@ impl Scene {
             cells_z: cells[2],
             cell_total: cells[0] * cells[1] * cells[2],
             plane_count: self.planes.len() as u32,
-            body_count: self.bodies.len() as u32,
+            body_count: self.numbered_bodies(),
             artificial_exponent: f.artificial_stress.as_ref().map_or(0, |a| a.exponent),
             contact_capacity: self.contact_capacity(),
-            facet_count: self.facets.len() as u32,
+            facet_count: self.own_facets().len() as u32,
             facet_capacity: self.facet_capacity(),
-            obstacle_count: self.obstacles.len() as u32,
+            obstacle_count: self.own_obstacles().len() as u32,
             facet_alike: self.facet_alike(),
             surface_count: shares[0],
             corner_count: shares[1],

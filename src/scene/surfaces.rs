@@ -3,6 +3,7 @@
 use super::copies::{named, pairs};
 use super::facets::{facets, owners};
 use super::file::{self, ObstacleShape, SurfaceGap};
+use super::groups::Group;
 use super::refuse::Refuse;
 use super::shape::{Coordinates, used};
 use super::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
@@ -18,6 +19,7 @@ pub(super) struct Parts<'a> {
     pub bodies: &'a [SceneBody],
     pub particles: &'a [Particle],
     pub planes: &'a [Plane],
+    pub groups: &'a [Group],
     pub refuse: &'a Refuse<'a>,
 }
 
@@ -30,8 +32,10 @@ impl Parts<'_> {
             let Some(gap) = &contact.gap else { continue };
             let at = k.to_string();
             let path = ["contact", &at, "gap"];
+            let touching = pairs(bodies, &contact.between);
             self.check_gap(gap, contact.touches(), &path)?;
-            for (a, b) in pairs(bodies, &contact.between) {
+            self.check_method(touching.iter().flat_map(|&(a, b)| [a, b]), &path)?;
+            for (a, b) in touching {
                 let spacing = bodies[a].spacing.max(bodies[b].spacing);
                 let modulus = bodies[a].material.youngs_modulus().min(bodies[b].material.youngs_modulus());
                 let pair = FacetPair {
@@ -61,8 +65,7 @@ impl Parts<'_> {
         refuse.unless(gap.range >= 1.0 && gap.range <= 4.0, &[path[0], path[1], path[2], "range"], || {
             format!("range must lie between 1 and 4 spacings, found {}", gap.range)
         })?;
-        self.check_friction(gap.friction, path)?;
-        self.check_method(path)
+        self.check_friction(gap.friction, path)
     }
 
     fn check_friction(&self, friction: f64, path: &[&str]) -> Result<(), String> {
@@ -75,13 +78,21 @@ impl Parts<'_> {
         })
     }
 
-    /// What contact by surfaces asks of the scene.
-    fn check_method(&self, path: &[&str]) -> Result<(), String> {
+    /// What contact by surfaces asks of the scene and of the bodies that touch.
+    fn check_method(&self, bodies: impl Iterator<Item = usize> + Clone, path: &[&str]) -> Result<(), String> {
         let (file, refuse) = (self.file, self.refuse);
-        refuse.unless(file.formulation.kind == Formulation::TotalLagrangian, path, || {
+        let has_all = |group: &&Group| bodies.clone().all(|body| group.bodies.contains(&body));
+        let Some(group) = self.groups.iter().find(has_all) else {
+            return Err(refuse.at(
+                path,
+                "contact by surfaces is for bodies of one formulation: give them one, or name a potential; an obstacle takes \
+                 `against`",
+            ));
+        };
+        refuse.unless(group.kind() == Formulation::TotalLagrangian, path, || {
             "contact by surfaces needs formulation.kind `total_lagrangian`".into()
         })?;
-        refuse.unless(file.formulation.gradient != Some(Gradient::Quadratic), path, || {
+        refuse.unless(group.formulation.gradient != Some(Gradient::Quadratic), path, || {
             "contact by surfaces does not go with the quadratic gradient".into()
         })?;
         refuse.unless(file.quasi_static.is_some() || file.time.integrator == Integrator::Leapfrog, path, || {
@@ -102,7 +113,8 @@ impl Parts<'_> {
         constraints: &mut Vec<SceneConstraint>,
     ) -> Result<SceneObstacle, String> {
         let (refuse, path) = (self.refuse, ["obstacle", at]);
-        self.check_method(&path)?;
+        let pairs = self.touched(typed, &path)?;
+        self.check_method((0..pairs.len()).filter(|&k| self.meets(typed, k)), &path)?;
         self.check_friction(typed.friction, &path)?;
         positive(refuse, &path, "stiffness", typed.stiffness)?;
         if let Some(mass) = typed.mass {
@@ -128,7 +140,7 @@ impl Parts<'_> {
             velocity,
             inverse_mass: typed.mass.map_or(0.0, |mass| 1.0 / mass),
             condition,
-            pairs: self.touched(typed, &path)?,
+            pairs,
         })
     }
 
@@ -191,13 +203,18 @@ impl Parts<'_> {
         if let Some(stray) = typed.against.iter().flatten().find(|word| !known(word)) {
             return Err(self.refuse.at(&[path[0], path[1], "against"], format!("no body is named `{stray}`")));
         }
-        let pair = |body: &SceneBody| {
-            let touches =
-                typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group));
-            let stiffness = if touches { typed.stiffness * body.material.youngs_modulus() / body.spacing } else { 0.0 };
+        let pair = |(k, body): (usize, &SceneBody)| {
+            let stiffness =
+                if self.meets(typed, k) { typed.stiffness * body.material.youngs_modulus() / body.spacing } else { 0.0 };
             FacetPair { stiffness, friction: typed.friction, ..FacetPair::default() }
         };
-        Ok(self.bodies.iter().map(pair).collect())
+        Ok(self.bodies.iter().enumerate().map(pair).collect())
+    }
+
+    /// Whether an obstacle is in the way of a body.
+    fn meets(&self, typed: &file::ObstacleTable, body: usize) -> bool {
+        let body = &self.bodies[body];
+        typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group))
     }
 
     /// Facets of the bodies that touch something, in order of their owners; none on mirror planes.

@@ -10,11 +10,12 @@ mod report;
 pub use measure::Step;
 
 use crate::backend::Choice;
-use crate::method::{Formulation, Method};
+use crate::method::Method;
 use crate::registry::{Registry, Texts};
 use crate::run::{INTERRUPTED, Stop};
 use crate::scene::Scene;
 use crate::step;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -40,7 +41,7 @@ pub struct Request {
 pub struct Row {
     pub scene: String,
     pub dimension: usize,
-    pub formulation: &'static str,
+    pub formulation: String,
     pub particles: usize,
     pub fields: Vec<&'static str>,
     pub passes: Vec<&'static str>,
@@ -85,11 +86,30 @@ pub fn run(request: &Request, mut tell: impl FnMut(&Row)) -> Result<(String, boo
 /// A scene that is refused, or one that is composed otherwise by the full registry.
 pub fn show(path: &Path, variant: Option<&str>, set: &[String]) -> Result<String, Stop> {
     let scene = Scene::open(path, variant, set).map_err(Stop::Refused)?;
-    let (own, full) = composed(&scene.method).map_err(Stop::Failed)?;
-    if own != full {
-        return Err(Stop::Failed(format!("{}: its own parts compose another run than the full registry does", scene.label())));
+    let mut text = String::new();
+    for member in scene.members() {
+        let (own, full) = composed(&member.method).map_err(Stop::Failed)?;
+        if own != full {
+            return Err(Stop::Failed(format!(
+                "{}: its own parts compose another run than the full registry does",
+                scene.label()
+            )));
+        }
+        if !scene.parts.is_empty() {
+            text += &format!("# {}\n", heading(member));
+        }
+        text += &format!("# fields\n{}\n# dispatches\n{}\n# shaders\n{}", own.fields, own.dispatches, own.shaders);
     }
-    Ok(format!("# fields\n{}\n# dispatches\n{}\n# shaders\n{}", own.fields, own.dispatches, own.shaders))
+    Ok(text)
+}
+
+/// What a member of a run of several groups is.
+fn heading(member: &Scene) -> String {
+    if member.method.between {
+        return "between the groups".into();
+    }
+    let names: Vec<&str> = member.bodies.iter().map(|body| body.name.as_str()).collect();
+    format!("group of {} ({})", names.join(", "), member.method.formulation.word())
 }
 
 /// From the parts that the method names, and from all that there are.
@@ -107,25 +127,22 @@ fn all_scenes() -> Result<Vec<PathBuf>, String> {
 }
 
 fn row(scene: &Scene, request: &Request) -> Result<Row, Stop> {
-    let method = &scene.method;
     let particles = scene.particles.len();
-    let (own, full) = composed(method).map_err(Stop::Failed)?;
-    let each = |word: usize| scene.state_bytes(word, word == 4) as f64 / particles as f64;
+    let methods = scene.methods();
+    let composed: Vec<(Texts, Texts)> = methods.iter().map(composed).collect::<Result<_, _>>().map_err(Stop::Failed)?;
+    let each = |word: usize| scene.run_bytes(word, word == 4) as f64 / particles as f64;
     let stepped = request.all || particles <= MANY;
+    let words: BTreeSet<&str> = scene.groups().iter().map(|group| group.method.formulation.word()).collect();
     Ok(Row {
         scene: scene.label(),
-        dimension: method.dimension,
-        formulation: match method.formulation {
-            Formulation::Eulerian => "eulerian",
-            Formulation::TotalLagrangian => "total_lagrangian",
-            Formulation::CorrectedKernel => "corrected_kernel",
-        },
+        dimension: scene.dimension(),
+        formulation: words.into_iter().collect::<Vec<_>>().join(" + "),
         particles,
-        fields: step::fields(method).iter().map(|field| field.name()).collect(),
-        passes: step::passes(method).iter().map(|pass| pass.name()).collect(),
-        dispatches: step::step(method).iter().map(|call| call.pass.entries().len()).sum(),
-        shader_bytes: full.shaders.len(),
-        own_parts_suffice: own == full,
+        fields: scene.fields().iter().map(|field| field.name()).collect(),
+        passes: step::passes_of(&methods).iter().map(|pass| pass.name()).collect(),
+        dispatches: methods.iter().flat_map(step::step).map(|call| call.pass.entries().len()).sum(),
+        shader_bytes: composed.iter().map(|(_, full)| full.shaders.len()).sum(),
+        own_parts_suffice: composed.iter().all(|(own, full)| own == full),
         bytes: [each(4), each(8)],
         step: stepped.then(|| measure::step(scene, &request.choice)).transpose()?,
     })

@@ -43,7 +43,9 @@ fn try_case<W: Space<Real = f64>, N: Space<Real = f32>>(case: &Case, adapter: &w
     if calls.iter().any(|call| call.pass == Pass::Stress) {
         trial.run_long_stress();
     }
-    if trial.truth.method.quasi_static.is_some() {
+    if trial.truth.method.between {
+        trial.run_meetings();
+    } else if trial.truth.method.quasi_static.is_some() {
         trial.run_descent_ends();
     } else {
         trial.run_ends();

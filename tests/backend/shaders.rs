@@ -66,7 +66,7 @@ fn shaders_of_every_scene_are_valid() {
     for path in scene_files() {
         let plain = Scene::open(&path, None, &[]).unwrap();
         let variants = plain.file.variant.keys().map(|name| Scene::open(&path, Some(name), &[]).unwrap());
-        let methods: Vec<Method> = variants.map(|scene| scene.method).chain([plain.method.clone()]).collect();
+        let methods: Vec<Method> = variants.flat_map(|scene| scene.methods()).chain(plain.methods()).collect();
         for method in methods {
             for compensated in [false, true] {
                 let method = Method { compensated, ..method.clone() };

@@ -47,7 +47,7 @@ pub fn discs_of(radius: f64, contact: &str, formulation: &str, [gap, offset]: [f
 pub fn begun<S: Space>(scene: &Scene) -> Cpu<S> {
     let mut cpu = Cpu::new(scene.state::<S>(false));
     cpu.begin_segment(0.0, 0.0, u32::MAX, true).unwrap();
-    cpu.state.clock.running = 1;
+    cpu.members[0].clock.running = 1;
     cpu
 }
 
@@ -115,7 +115,7 @@ pub fn collide(scene: &Scene, duration: f64) -> Change {
     for _ in 0..20 {
         cpu.begin_segment(0.0, duration / 20.0, u32::MAX, false).unwrap();
         while cpu.advance().unwrap().running == 1 {}
-        assert_eq!(cpu.state.clock.fault, 0);
+        assert_eq!(cpu.members[0].clock.fault, 0);
         end = sums(scene, &mut cpu);
         contact = contact.max(end.contact);
     }

@@ -54,7 +54,7 @@ fn contacts(state: &mut State<Plane<f64>>) -> (f64, Vec<[f64; 2]>) {
 #[test]
 fn forces_are_minus_the_gradients_of_the_energies() {
     for (law, _) in WITH_ENERGY {
-        let mut state = begun::<Plane<f64>>(&discs(law, LAGRANGIAN, [-1.2, 1.3], 0.0)).state;
+        let mut state = begun::<Plane<f64>>(&discs(law, LAGRANGIAN, [-1.2, 1.3], 0.0)).into_state();
         let mut random = Random(5);
         for a in 0..state.columns.displacement.len() {
             (0..2).for_each(|k| state.columns.displacement[a][k] = 0.05 * random.signed());

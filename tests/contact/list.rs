@@ -28,7 +28,7 @@ fn blocks(contacts: &str, formulation: &str) -> String {
 
 /// Largest pull along x on each block's particles.
 fn pulls(scene: &Scene) -> [f64; 3] {
-    let state = begun::<Plane<f64>>(scene).state;
+    let state = begun::<Plane<f64>>(scene).into_state();
     let mut pulls = [0.0f64; 3];
     for (a, acceleration) in state.columns.acceleration.iter().enumerate() {
         let body = state.body_index(a);

@@ -54,7 +54,7 @@ fn between_obstacles(dimension: usize) -> Scene {
 }
 
 fn contact_energy<S: Space<Real = f64>>(scene: &Scene) -> f64 {
-    begun::<S>(scene).state.columns.contact_energy.iter().sum()
+    begun::<S>(scene).members[0].columns.contact_energy.iter().sum()
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn surfaces_have_no_resultant_and_no_moment_but_along_their_normals() {
 
 /// Sums over the particles: m v, x cross v m, and energies of motion, material, hourglass terms and contact, and heat.
 fn sums(cpu: &mut Cpu<Plane<f64>>) -> [f64; 3] {
-    let state = &cpu.state;
+    let state = &cpu.members[0];
     let (mut momentum, mut spin) = (0.0, 0.0);
     for a in 0..state.params.count as usize {
         let (x, v, m) = (state.position(a), state.columns.velocity[a], state.mass(a));
@@ -146,9 +146,9 @@ fn struck(dimension: usize) -> Scene {
 
 /// Momentum, angular momentum and energy of the bodies and the ball.
 fn kept<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> [f64; 7] {
-    cpu.state.clock.running = 1;
-    let stored = energy::<S>(&mut cpu.state);
-    let state = &cpu.state;
+    cpu.members[0].clock.running = 1;
+    let stored = energy::<S>(&mut cpu.members[0]);
+    let state = &cpu.members[0];
     let (mut momentum, mut spin, mut motion) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     let vector = |v: S::Vec| DVec3::from_array(std::array::from_fn(|k| if k < S::DIMENSION { v[k] } else { 0.0 }));
     let mut add = |x: DVec3, v: DVec3, m: f64| {
@@ -168,12 +168,12 @@ fn assert_a_free_ball_gives_what_it_loses<S: Space<Real = f64>>() {
     let mut cpu = Cpu::new(scene.state::<S>(false));
     steps(&mut cpu, 0);
     let before = kept(&mut cpu);
-    let fall = |cpu: &Cpu<S>| cpu.state.columns.obstacle_velocity[0][S::DIMENSION - 1];
+    let fall = |cpu: &Cpu<S>| cpu.members[0].columns.obstacle_velocity[0][S::DIMENSION - 1];
     let first = fall(&cpu);
     steps(&mut cpu, 700);
     let after = kept(&mut cpu);
     assert!(first < 0.0 && fall(&cpu) > 0.1 * -first, "the ball leaves upward: {first} {}", fall(&cpu));
-    assert_eq!(cpu.state.columns.facet_obstacle.iter().max(), Some(&0), "and has left");
+    assert_eq!(cpu.members[0].columns.facet_obstacle.iter().max(), Some(&0), "and has left");
     for k in 0..6 {
         let size = BALL * 0.05 * if k < 3 { 1.0 } else { 5.0 };
         assert!((after[k] - before[k]).abs() < 1e-12 * size, "{k}: {before:?} {after:?}");

@@ -32,7 +32,7 @@ fn found(state: &State<Plane<f64>>, body: usize, kind: u32) -> Vec<usize> {
 fn surfaces_corners_and_normals_of_blocks_are_found_in_both_formulations() {
     for formulation in ["", LAGRANGIAN] {
         for normals in ["without_surface", "all", "initial"] {
-            let state = begun::<Plane<f64>>(&blocks(&format!("normals = '{normals}'"), formulation)).state;
+            let state = begun::<Plane<f64>>(&blocks(&format!("normals = '{normals}'"), formulation)).into_state();
             for (body, [long, high]) in [[12.0, 8.0], [16.0, 6.0]].into_iter().enumerate() {
                 let (rim, corners) = (found(&state, body, SURFACE), found(&state, body, CORNER));
                 // Beside a corner 11 of 24 neighbours are left, which makes a corner of it too; diagonally behind it 15.
@@ -49,7 +49,7 @@ fn surfaces_corners_and_normals_of_blocks_are_found_in_both_formulations() {
             }
         }
     }
-    let every = begun::<Plane<f64>>(&blocks("surface = 1.0, corner = 0.0", LAGRANGIAN)).state;
+    let every = begun::<Plane<f64>>(&blocks("surface = 1.0, corner = 0.0", LAGRANGIAN)).into_state();
     assert!(every.columns.surface.iter().all(|&kind| kind == SURFACE));
 }
 
@@ -57,7 +57,7 @@ fn surfaces_corners_and_normals_of_blocks_are_found_in_both_formulations() {
 #[test]
 fn normals_turn_with_a_body_unless_they_are_those_of_the_start() {
     for (normals, turns) in [("without_surface", true), ("initial", false)] {
-        let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = '{normals}'"), LAGRANGIAN)).state;
+        let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = '{normals}'"), LAGRANGIAN)).into_state();
         let before = state.columns.surface_normal.clone();
         for a in 0..before.len() {
             let x = state.columns.reference_position[a];
@@ -75,7 +75,7 @@ fn normals_turn_with_a_body_unless_they_are_those_of_the_start() {
 
 /// Force on the upper block's particle in the middle of its lowest row.
 fn force(zones: &str) -> [f64; 2] {
-    let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = 'all', {zones}"), LAGRANGIAN)).state;
+    let mut state = begun::<Plane<f64>>(&blocks(&format!("normals = 'all', {zones}"), LAGRANGIAN)).into_state();
     state.columns.acceleration.iter_mut().for_each(|a| *a = Default::default());
     Pass::ZoneForce.run(&mut state, Stage::default());
     let middle = (0..state.columns.surface.len()).find(|&a| {

@@ -18,15 +18,15 @@ fn methods_of_scenes() -> Vec<Method> {
     for path in scene_files() {
         let plain = Scene::open(&path, None, &[]).unwrap();
         let variants = plain.file.variant.keys().map(|name| Scene::open(&path, Some(name), &[]).unwrap());
-        list.extend(variants.map(|scene| scene.method));
-        list.push(plain.method);
+        list.extend(variants.flat_map(|scene| scene.methods()));
+        list.extend(plain.methods());
     }
     list
 }
 
 /// The same with those of the parity tests' cases, with and without compensation.
 fn methods() -> Vec<Method> {
-    let of_cases = (1..=3).flat_map(cases).map(|case| case.scene().method);
+    let of_cases = (1..=3).flat_map(cases).flat_map(|case| case.scene().methods());
     let both = |method: Method| [false, true].map(|compensated| Method { compensated, ..method.clone() });
     methods_of_scenes().into_iter().chain(of_cases).flat_map(both).collect()
 }

@@ -76,7 +76,7 @@ pub fn energy<S: Space<Real = f64>>(state: &mut State<S>) -> f64 {
 
 pub fn assert_force_is_the_gradient_of_the_energy<S: Space<Real = f64>>(scene: &Scene) {
     let mut cpu = begun::<S>(scene);
-    let state = &mut cpu.state;
+    let state = &mut cpu.members[0];
     let count = state.params.count as usize;
     // Where a body has flowed, and now does not, its hourglass energy varies from particle to particle.
     let mut random = Random(5);
@@ -142,7 +142,7 @@ fn contact_forces_are_minus_the_gradient_of_the_energy_of_bodies_that_touch() {
     for law in ["barrier", "power", "quadratic", "repulsive"] {
         let scene = pair_of_blocks(law);
         assert_force_is_the_gradient_of_the_energy::<Plane<f64>>(&scene);
-        let mut state = begun::<Plane<f64>>(&scene).state;
+        let mut state = begun::<Plane<f64>>(&scene).into_state();
         respond(&mut state);
         assert!(state.columns.contact_energy.iter().sum::<f64>() > 1e-5);
     }
@@ -155,7 +155,7 @@ pub fn assert_momenta_stay<S: Space<Real = f64>>(scene: &Scene) {
 
 /// Sum of the forces and of their moments of displaced bodies, over the sum of |f||x|.
 pub fn resultants<S: Space<Real = f64>>(scene: &Scene) -> (f64, f64) {
-    let mut state = begun::<S>(scene).state;
+    let mut state = begun::<S>(scene).into_state();
     let noise = scatter(state.params.count as usize, 0.1);
     displace(&mut state, |a, _| noise[a]);
     respond(&mut state);
@@ -179,13 +179,13 @@ fn inner_forces_and_contacts_have_no_resultant_and_no_moment() {
 #[test]
 fn the_gradient_is_exact_for_linear_and_the_quadratic_one_for_quadratic_fields() {
     let field = |x: [f64; 3]| [0.1 * x[0] - 0.2 * x[1], 0.05 * x[0] + 0.15 * x[1], 0.0];
-    let mut state = begun::<Plane<f64>>(&body(2, "")).state;
+    let mut state = begun::<Plane<f64>>(&body(2, "")).into_state();
     displace(&mut state, |_, x| field(x));
     respond(&mut state);
     for h in &state.columns.displacement_gradient {
         assert!(largest([h[0] - 0.1, h[1] - 0.05, h[2] + 0.2, h[3] - 0.15]) < 1e-10, "{h:?}");
     }
-    let mut state = begun::<Plane<f64>>(&body(2, "gradient = 'quadratic'")).state;
+    let mut state = begun::<Plane<f64>>(&body(2, "gradient = 'quadratic'")).into_state();
     displace(&mut state, |_, x| [0.01 * x[0] * x[1], 0.02 * x[1] * x[1] - 0.01 * x[0] * x[0], 0.0]);
     respond(&mut state);
     for (h, x) in state.columns.displacement_gradient.iter().zip(&state.columns.reference_position) {
@@ -196,7 +196,7 @@ fn the_gradient_is_exact_for_linear_and_the_quadratic_one_for_quadratic_fields()
 
 /// Largest acceleration of the particles far from any surface, over stress/(density spacing).
 fn residual<S: Space>(scene: &Scene, stretch: f64) -> f64 {
-    let mut state = begun::<S>(scene).state;
+    let mut state = begun::<S>(scene).into_state();
     displace(&mut state, |_, x| x.map(|x| stretch * x));
     respond(&mut state);
     let inside =
@@ -229,7 +229,7 @@ fn constant_stress_pulls_at_no_particle_inside_a_lattice() {
 fn a_rotation_makes_no_stress() {
     let (sine, cosine) = 0.8f64.sin_cos();
     for formulation in ["", "gradient = 'quadratic'"] {
-        let mut state = begun::<Plane<f64>>(&body(2, formulation)).state;
+        let mut state = begun::<Plane<f64>>(&body(2, formulation)).into_state();
         displace(&mut state, |_, x| [(cosine - 1.0) * x[0] - sine * x[1], sine * x[0] + (cosine - 1.0) * x[1], 0.0]);
         respond(&mut state);
         let worst = largest(state.columns.acceleration.iter().flat_map(|a| [a[0], a[1]]));
@@ -240,7 +240,7 @@ fn a_rotation_makes_no_stress() {
 #[test]
 fn the_table_of_bonds_gives_the_forces_of_the_list() {
     let accelerations = |formulation: &str| {
-        let mut state = begun::<Plane<f64>>(&body(2, formulation)).state;
+        let mut state = begun::<Plane<f64>>(&body(2, formulation)).into_state();
         assert_eq!(state.bond_table.rows.is_empty(), formulation.contains("false"));
         let noise = scatter(state.params.count as usize, 0.05);
         displace(&mut state, |a, _| noise[a]);

@@ -11,7 +11,7 @@ use lithosph::shape_function::{Node, Shape, nodes};
 use lithosph::tensor::{Line, Plane, Solid, Space};
 
 fn linear_fields_are_exact<S: Space<Real = f64>>(options: &str, reference: bool) {
-    let state = irregular::<S>(options).state;
+    let state = irregular::<S>(options).into_state();
     let mut worst = 0.0_f64;
     for a in 0..state.params.count as usize {
         let shape = Shape::<S>::of(&state, a);
@@ -43,28 +43,28 @@ fn linear_fields_and_their_gradients_are_exact() {
 
 /// Shape and the values of all shape functions where a particle is.
 fn values<S: Space<Real = f64>>(cpu: &mut Cpu<S>, a: usize) -> (Shape<S>, Vec<(f64, S::Vec)>) {
-    Pass::ShapeFunction.run(&mut cpu.state, Stage::default());
-    let shape = Shape::<S>::of(&cpu.state, a);
+    Pass::ShapeFunction.run(&mut cpu.members[0], Stage::default());
+    let shape = Shape::<S>::of(&cpu.members[0], a);
     let both = |node: Node<S>| (shape.value(node.x, node.weight), shape.gradient(node.x, node.weight, node.slope));
-    (shape, nodes(&cpu.state, a, false).map(both).collect())
+    (shape, nodes(&cpu.members[0], a, false).map(both).collect())
 }
 
 /// A particle without volume is a point that the field does not notice: its shape functions are compared with
 /// themselves a little aside.
 fn derivatives_are_differences<S: Space<Real = f64>>() {
     let mut cpu = irregular::<S>("");
-    let count = cpu.state.params.count as usize;
+    let count = cpu.members[0].params.count as usize;
     let step = 1e-5;
     let mut worst = 0.0_f64;
     for a in [0, 3, count / 2, count - 1] {
-        let volume = std::mem::take(&mut cpu.state.columns.reference_volume[a]);
+        let volume = std::mem::take(&mut cpu.members[0].columns.reference_volume[a]);
         let (shape, here) = values(&mut cpu, a);
         for k in 0..S::DIMENSION {
-            cpu.state.columns.displacement[a][k] += step;
+            cpu.members[0].columns.displacement[a][k] += step;
             let (after, ahead) = values(&mut cpu, a);
-            cpu.state.columns.displacement[a][k] -= 2.0 * step;
+            cpu.members[0].columns.displacement[a][k] -= 2.0 * step;
             let (before, behind) = values(&mut cpu, a);
-            cpu.state.columns.displacement[a][k] += step;
+            cpu.members[0].columns.displacement[a][k] += step;
             // The last of a row has a correction so steep that only digits count.
             let mut check = |seen: f64, high: f64, low: f64| {
                 worst = worst.max((seen - (high - low) / (2.0 * step)).abs() / seen.abs().max(1.0));
@@ -75,7 +75,7 @@ fn derivatives_are_differences<S: Space<Real = f64>>() {
             let others = here.iter().zip(&ahead).zip(&behind).take(here.len() - 1);
             others.for_each(|(((_, gradient), high), low)| check(gradient[k], high.0, low.0));
         }
-        cpu.state.columns.reference_volume[a] = volume;
+        cpu.members[0].columns.reference_volume[a] = volume;
     }
     println!("{}D: derivatives off by {worst:.1e}", S::DIMENSION);
     assert!(worst < 1e-7, "{worst:e}");
@@ -89,8 +89,8 @@ fn derivatives_of_shape_functions_equal_central_differences() {
 }
 
 fn energy<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> f64 {
-    Pass::DeformByShape.run(&mut cpu.state, Stage { reference: true, ..Stage::default() });
-    let state = &cpu.state;
+    Pass::DeformByShape.run(&mut cpu.members[0], Stage { reference: true, ..Stage::default() });
+    let state = &cpu.members[0];
     let one = |a: usize| {
         let h = state.columns.displacement_gradient[a];
         state.columns.reference_volume[a] * stored_energy::<S>(state.body(a), h, S::Sym::default())
@@ -101,16 +101,16 @@ fn energy<S: Space<Real = f64>>(cpu: &mut Cpu<S>) -> f64 {
 /// Largest error of a force, relative to the largest force.
 fn force_less_difference<S: Space<Real = f64>>(options: &str) -> f64 {
     let mut cpu = irregular::<S>(&format!("configuration = 'reference'\n{options}"));
-    let (count, step) = (cpu.state.params.count as usize, 1e-5);
+    let (count, step) = (cpu.members[0].params.count as usize, 1e-5);
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for a in [0, 1, count / 3, count / 2, count - 1] {
         for k in 0..S::DIMENSION {
-            let force = cpu.state.columns.acceleration[a][k] * cpu.state.mass(a);
-            cpu.state.columns.displacement[a][k] += step;
+            let force = cpu.members[0].columns.acceleration[a][k] * cpu.members[0].mass(a);
+            cpu.members[0].columns.displacement[a][k] += step;
             let high = energy(&mut cpu);
-            cpu.state.columns.displacement[a][k] -= 2.0 * step;
+            cpu.members[0].columns.displacement[a][k] -= 2.0 * step;
             let low = energy(&mut cpu);
-            cpu.state.columns.displacement[a][k] += step;
+            cpu.members[0].columns.displacement[a][k] += step;
             worst = worst.max((force + (high - low) / (2.0 * step)).abs());
             largest = largest.max(force.abs());
         }
@@ -131,8 +131,8 @@ fn force_in_the_reference_configuration_is_minus_the_derivative_of_the_energy() 
 /// Power of the forces plus that of the stress, relative to the sum of its parts.
 fn imbalance<S: Space<Real = f64>>(options: &str) -> f64 {
     let mut cpu = irregular::<S>(options);
-    Pass::EvolveDeformation.run(&mut cpu.state, Stage::default());
-    let (state, p) = (&cpu.state, &cpu.state.columns);
+    Pass::EvolveDeformation.run(&mut cpu.members[0], Stage::default());
+    let (state, p) = (&cpu.members[0], &cpu.members[0].columns);
     let (mut sum, mut size) = (0.0, 0.0);
     for a in 0..state.params.count as usize {
         let of_force = state.mass(a) * S::inner(p.acceleration[a], p.velocity[a]);
@@ -162,17 +162,17 @@ fn power_of_the_forces_is_that_of_the_stress() {
 fn a_lonely_row_of_particles_is_corrected_as_far_as_it_goes() {
     let mut cpu = irregular::<Plane<f64>>("");
     // All but three in a row leave.
-    for a in 3..cpu.state.params.count as usize {
-        cpu.state.columns.displacement[a].0[1] = 100.0 + 10.0 * a as f64;
+    for a in 3..cpu.members[0].params.count as usize {
+        cpu.members[0].columns.displacement[a].0[1] = 100.0 + 10.0 * a as f64;
     }
     for a in 0..3 {
-        let x = cpu.state.columns.reference_position[a].0;
-        cpu.state.columns.displacement[a].0 = [0.9 * a as f64 - x[0], -x[1]];
+        let x = cpu.members[0].columns.reference_position[a].0;
+        cpu.members[0].columns.displacement[a].0 = [0.9 * a as f64 - x[0], -x[1]];
     }
     cpu.begin_segment(0.0, 1.0, 1, true).unwrap();
-    let finite = |a: usize| cpu.state.columns.acceleration[a].0.iter().all(|x| x.is_finite());
-    assert!((0..cpu.state.params.count as usize).all(finite));
-    assert!(cpu.state.columns.shape_slope.iter().all(|beta| beta.0 == [0.0; 2]));
+    let finite = |a: usize| cpu.members[0].columns.acceleration[a].0.iter().all(|x| x.is_finite());
+    assert!((0..cpu.members[0].params.count as usize).all(finite));
+    assert!(cpu.members[0].columns.shape_slope.iter().all(|beta| beta.0 == [0.0; 2]));
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn gradient_error<S: Space<Real = f64>>(mut state: State<S>, set_up: impl FnOnce
 fn listed<S: Space<Real = f64>>(state: State<S>) -> State<S> {
     let mut cpu = Cpu::new(state);
     cpu.begin_segment(0.0, 1.0, 1, true).unwrap_or_else(|e| panic!("{e}"));
-    cpu.state
+    cpu.into_state()
 }
 
 #[test]

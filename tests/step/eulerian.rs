@@ -59,7 +59,7 @@ fn an_elastic_scene_has_the_fields_of_elasticity_and_no_others() {
         Neighbors,
         BlockBound,
     ];
-    assert_eq!(cpu.state.columns.present(), expected.iter().copied().fold(Vec::new(), sorted_in));
+    assert_eq!(cpu.members[0].columns.present(), expected.iter().copied().fold(Vec::new(), sorted_in));
     let passes: Vec<&str> = step::step(&scene.method).iter().map(|c| c.pass.name()).collect();
     let read_aloud = "kick drift bin_cells scan_cells fill_cells sort_cells find_neighbors \
                       strain_rate stress drift specific_stress force kick bound_time_step";

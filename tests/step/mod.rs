@@ -3,4 +3,5 @@
 mod corrected_kernel;
 mod elastic;
 pub mod eulerian;
+mod groups;
 mod lagrangian;

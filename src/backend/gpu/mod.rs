@@ -12,18 +12,19 @@ mod tables;
 mod tests;
 
 use super::device::{DeviceInfo, TIMESTAMPS};
-use super::{Backend, Fetched};
+use super::machine::{Part, joined};
+use super::{Backend, Fetched, Saved};
 use crate::fields::Field;
+use crate::method::Method;
 use crate::pass::Call;
 use crate::rows::{Clock, Params};
 use crate::state::State;
-use crate::step;
+use crate::step::{self, Act};
 use crate::tensor::Space;
 use bytemuck::{bytes_of, pod_read_unaligned};
 use connection::Connection;
 use pace::Pace;
 use plan::{Action, Planner};
-use std::collections::BTreeMap;
 use std::mem::offset_of;
 use std::time::Instant;
 use tables::Tables;
@@ -47,8 +48,8 @@ pub struct Options {
 pub struct Gpu {
     link: Connection,
     info: DeviceInfo,
-    tables: Tables,
-    planner: Planner,
+    /// The groups, and after several of them what acts between them.
+    members: Vec<Member>,
     /// Commands that run once, before the first segment.
     prepare: Vec<Action>,
     begin_segment: Vec<Action>,
@@ -60,6 +61,89 @@ pub struct Gpu {
     /// When the segment began, with the digits that the device's f32 drops.
     start: f64,
     pace: Pace,
+}
+
+/// One member of a run: its tables, and the commands that work on them.
+struct Member {
+    tables: Tables,
+    planner: Planner,
+}
+
+/// The commands of acts in order.
+fn planned(link: &Connection, members: &mut [Member], acts: &[Act]) -> Result<Vec<Action>, String> {
+    let mut actions = Vec::new();
+    for act in acts {
+        match *act {
+            Act::Call(member, call) => {
+                let Member { tables, planner } = &mut members[member];
+                actions.extend(planner.actions(link, tables, &[call])?);
+            }
+            Act::Collect(fields) => copies(members, fields, true, &mut actions),
+            Act::Spread(fields) => copies(members, fields, false, &mut actions),
+            Act::CollectClocks => copy_clocks(members, true, &mut actions)?,
+            Act::SpreadClocks => copy_clocks(members, false, &mut actions)?,
+        }
+    }
+    Ok(actions)
+}
+
+/// Copies of columns between the groups that have them and their ranges in the last member.
+fn copies(members: &[Member], fields: &[Field], collect: bool, actions: &mut Vec<Action>) {
+    let Some((between, groups)) = members.split_last() else { return };
+    for &field in fields {
+        let Ok(whole) = between.tables.field(field) else { continue };
+        let row = whole.bytes / u64::from(between.tables.params.count.max(1));
+        let mut first = 0;
+        for group in groups {
+            if let Ok(own) = group.tables.field(field) {
+                let (own, place, bytes) = ((own.buffer.clone(), 0), (whole.buffer.clone(), first), own.bytes);
+                let (from, to) = if collect { (own, place) } else { (place, own) };
+                actions.push(Action::Copy { from, to, bytes });
+            }
+            first += row * u64::from(group.tables.params.count);
+        }
+    }
+}
+
+fn copy_clocks(members: &[Member], collect: bool, actions: &mut Vec<Action>) -> Result<(), String> {
+    let Some((between, groups)) = members.split_last() else { return Ok(()) };
+    let whole = &between.tables.get("group_clocks")?.buffer;
+    for (k, group) in (0..).zip(groups) {
+        let (own, place) = ((group.tables.get("clock")?.buffer.clone(), 0), (whole.clone(), k * CLOCK_BYTES));
+        let (from, to) = if collect { (own, place) } else { (place, own) };
+        actions.push(Action::Copy { from, to, bytes: CLOCK_BYTES });
+    }
+    Ok(())
+}
+
+fn write_table(link: &Connection, tables: &Tables, name: &str, bytes: &[u8]) -> Result<(), String> {
+    let checked = |wanted: u64| match bytes.len() as u64 == wanted {
+        true => Ok(()),
+        false => Err(format!("{name} holds {wanted} bytes, not {}", bytes.len())),
+    };
+    match name {
+        "params" => {
+            checked(size_of::<Params<f32>>() as u64)?;
+            tables.write_params(link, &pod_read_unaligned(bytes))
+        }
+        "neighbors" => {
+            let params = &tables.params;
+            checked(4 * u64::from(params.count) * u64::from(params.list_capacity))?;
+            tables.write_neighbors(link, &tables::words(bytes).collect::<Vec<_>>())
+        }
+        _ => {
+            let table = tables.get(name)?;
+            checked(table.bytes)?;
+            link.write(&table.buffer, bytes)
+        }
+    }
+}
+
+/// Bytes of some of a member's fields.
+fn read_fields(link: &Connection, tables: &Tables, fields: &[Field]) -> Result<Vec<Vec<u8>>, String> {
+    let tables = fields.iter().map(|&field| tables.field(field)).collect::<Result<Vec<_>, _>>()?;
+    let wanted: Vec<_> = tables.iter().map(|table| (&table.buffer, table.bytes)).collect();
+    link.read(&wanted)
 }
 
 impl Gpu {
@@ -76,72 +160,96 @@ impl Gpu {
         state: &State<S>,
         options: Options,
     ) -> Result<Self, String> {
+        Self::open(adapter, &[state], options)
+    }
+
+    /// A run of the members that [`crate::scene::Scene::members`] gives.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_members<S: Space<Real = f32>>(adapter: &wgpu::Adapter, states: &[State<S>]) -> Result<Self, String> {
+        Self::open(adapter, &states.iter().collect::<Vec<_>>(), Options::default())
+    }
+
+    fn open<S: Space<Real = f32>>(adapter: &wgpu::Adapter, states: &[&State<S>], options: Options) -> Result<Self, String> {
         let info = DeviceInfo::of(adapter);
         let link = Connection::open(adapter, TIMESTAMPS)?;
-        let tables = Tables::new(&link, &info, state, options.longest_part)?;
-        let mut planner = Planner::new(&state.method, options.patch);
-        let mut plan = |calls: &[Call]| planner.actions(&link, &tables, calls);
-        let prepare = plan(&step::prepare(&state.method))?;
-        let begin_segment = plan(&step::begin_segment(&state.method))?;
-        let begin_run = plan(&step::begin_run(&state.method))?;
-        let bound = plan(&[step::bound(&state.method)])?;
-        let step = plan(&step::step(&state.method))?;
+        let Options { longest_part, mut patch } = options;
+        let mut members = Vec::new();
+        for state in states {
+            let tables = Tables::new(&link, &info, state, longest_part)?;
+            members.push(Member { tables, planner: Planner::new(&state.method, patch.take()) });
+        }
+        let methods: Vec<Method> = states.iter().map(|state| state.method.clone()).collect();
+        let steps = step::steps(&methods);
+        let mut plan = |acts: &[Act]| planned(&link, &mut members, acts);
+        let prepare = plan(&steps.prepare)?;
+        let begin_segment = plan(&steps.begin_segment)?;
+        let begin_run = plan(&steps.begin_run)?;
+        let bound = plan(&steps.bound)?;
+        let step = plan(&steps.step)?;
         let clock = link.buffer("clock copy", CLOCK_BYTES, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
-        let (start, pace) = (f64::from(state.clock.start), Pace::new(state.params.count, state.method.quasi_static.is_some()));
-        Ok(Self { link, info, tables, planner, prepare, begin_segment, begin_run, bound, step, clock, start, pace })
+        let most = states.iter().map(|state| state.params.count).max().unwrap_or(0);
+        let descends = methods.iter().any(|method| method.quasi_static.is_some());
+        let start = states.first().map_or(0.0, |state| f64::from(state.clock.start));
+        Ok(Self {
+            link,
+            info,
+            members,
+            prepare,
+            begin_segment,
+            begin_run,
+            bound,
+            step,
+            clock,
+            start,
+            pace: Pace::new(most, descends),
+        })
+    }
+
+    /// The member that tests and timings look at: the first group.
+    fn tables(&self) -> &Tables {
+        &self.members[0].tables
+    }
+
+    /// The clocks of all members; the last tells how far the run is.
+    fn clocks(&self) -> Result<Vec<&Buffer>, String> {
+        self.members.iter().map(|member| member.tables.get("clock").map(|table| &table.buffer)).collect()
     }
 
     /// Runs calls once, in order, and waits.
     pub fn run_calls(&mut self, calls: &[Call]) -> Result<(), String> {
-        let actions = self.planner.actions(&self.link, &self.tables, calls)?;
+        let acts: Vec<Act> = calls.iter().map(|&call| Act::Call(0, call)).collect();
+        let actions = planned(&self.link, &mut self.members, &acts)?;
         self.submit(&actions)?;
         self.link.wait()
     }
 
-    /// Overwrites a table by its shader name with bytes as the host's `State` holds them.
+    /// Overwrites a table of the first group by its shader name with bytes as the host's `State` holds them.
     pub fn write_table(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        let checked = |wanted: u64| match bytes.len() as u64 == wanted {
-            true => Ok(()),
-            false => Err(format!("{name} holds {wanted} bytes, not {}", bytes.len())),
-        };
-        match name {
-            "params" => {
-                checked(size_of::<Params<f32>>() as u64)?;
-                self.tables.write_params(&self.link, &pod_read_unaligned(bytes))
-            }
-            "neighbors" => {
-                let params = &self.tables.params;
-                checked(4 * u64::from(params.count) * u64::from(params.list_capacity))?;
-                self.tables.write_neighbors(&self.link, &tables::words(bytes).collect::<Vec<_>>())
-            }
-            _ => {
-                let table = self.tables.get(name)?;
-                checked(table.bytes)?;
-                self.link.write(&table.buffer, bytes)
-            }
-        }
+        write_table(&self.link, self.tables(), name, bytes)
     }
 
     /// A table by its shader name, as the host's `State` holds it.
     pub fn read_table(&self, name: &str) -> Result<Vec<u8>, String> {
         if name == "neighbors" {
-            return Ok(bytemuck::cast_slice(&self.tables.read_neighbors(&self.link)?).to_vec());
+            return Ok(bytemuck::cast_slice(&self.tables().read_neighbors(&self.link)?).to_vec());
         }
-        let table = self.tables.get(name)?;
+        let table = self.tables().get(name)?;
         Ok(self.link.read(&[(&table.buffer, table.bytes)])?.remove(0))
     }
 
     /// Each particle's neighbour list.
     pub fn fetch_neighbors(&self) -> Result<Vec<Vec<u32>>, String> {
         let counts = self.read_table(Field::NeighborCount.name())?;
-        let rows = self.tables.read_neighbors(&self.link)?;
-        let rows = rows.chunks(self.tables.params.list_capacity.max(1) as usize);
+        let rows = self.tables().read_neighbors(&self.link)?;
+        let rows = rows.chunks(self.tables().params.list_capacity.max(1) as usize);
         Ok(tables::words(&counts).zip(rows).map(|(n, row)| row[..row.len().min(n as usize)].to_vec()).collect())
     }
 
     /// Parts that the neighbour list comes in.
     pub fn parts(&self) -> usize {
-        self.tables.parts.len()
+        self.tables().parts.len()
     }
 
     fn submit<'a>(&self, actions: impl IntoIterator<Item = &'a Action>) -> Result<(), String> {
@@ -153,17 +261,19 @@ impl Gpu {
     /// Brings fields up to date that the steps leave at an earlier time. It may only be called between segments, and starts
     /// the clock for it: passes do nothing while the clock is stopped.
     fn refresh(&mut self, fields: &[Field]) -> Result<(), String> {
-        let calls = step::before_fetch(&self.planner.method, fields);
-        if calls.is_empty() {
+        let methods: Vec<Method> = self.members.iter().map(|member| member.planner.method.clone()).collect();
+        let acts = step::refresh(&methods, fields);
+        if acts.is_empty() {
             return Ok(());
         }
+        let actions = planned(&self.link, &mut self.members, &acts)?;
         let running = |value: u32| {
             let place = offset_of!(Clock<f32>, running) as u64;
-            let clock = &self.tables.get("clock")?.buffer;
-            self.link.queue.write_buffer(clock, place, &value.to_ne_bytes());
+            for clock in self.clocks()? {
+                self.link.queue.write_buffer(clock, place, &value.to_ne_bytes());
+            }
             Ok::<(), String>(())
         };
-        let actions = self.planner.actions(&self.link, &self.tables, &calls)?;
         running(1)?;
         self.submit(&actions)?;
         running(0)
@@ -171,7 +281,8 @@ impl Gpu {
 
     fn read_clock(&self) -> Result<Clock<f64>, String> {
         let mut encoder = self.link.encoder();
-        encoder.copy_buffer_to_buffer(&self.tables.get("clock")?.buffer, 0, &self.clock, 0, CLOCK_BYTES);
+        let clocks = self.clocks()?;
+        encoder.copy_buffer_to_buffer(clocks[clocks.len() - 1], 0, &self.clock, 0, CLOCK_BYTES);
         self.link.submit(encoder)?;
         let seen: Clock<f32> = self.link.map(&self.clock, CLOCK_BYTES, pod_read_unaligned)?;
         Ok(Clock { start: self.start, ..seen.to_f64() })
@@ -182,13 +293,14 @@ impl Gpu {
         let (start, duration) = (start as f32, duration as f32);
         let clock = Clock { start, duration, steps_left: steps, running: 1, rebuild: 1, ..Clock::default() };
         let bytes = bytes_of(&clock);
-        let buffer = &self.tables.get("clock")?.buffer;
-        let write = |begin: usize, end: usize| {
-            self.link.queue.write_buffer(buffer, begin as u64, &bytes[begin..end]);
-        };
-        write(0, offset_of!(Clock<f32>, steps_done));
-        write(offset_of!(Clock<f32>, running), offset_of!(Clock<f32>, lists_built));
-        write(offset_of!(Clock<f32>, fault), bytes.len());
+        for buffer in self.clocks()? {
+            let write = |begin: usize, end: usize| {
+                self.link.queue.write_buffer(buffer, begin as u64, &bytes[begin..end]);
+            };
+            write(0, offset_of!(Clock<f32>, steps_done));
+            write(offset_of!(Clock<f32>, running), offset_of!(Clock<f32>, lists_built));
+            write(offset_of!(Clock<f32>, fault), bytes.len());
+        }
         self.link.check()
     }
 
@@ -239,7 +351,7 @@ impl Backend for Gpu {
     }
 
     fn bytes(&self) -> u64 {
-        self.tables.bytes()
+        self.members.iter().map(|member| member.tables.bytes()).sum()
     }
 
     fn begin_segment(&mut self, start: f64, duration: f64, steps: u32, first: bool) -> Result<(), String> {
@@ -267,41 +379,54 @@ impl Backend for Gpu {
 
     fn fetch(&mut self, fields: &[Field]) -> Result<Fetched, String> {
         self.refresh(fields)?;
-        let tables = fields.iter().map(|&field| self.tables.field(field)).collect::<Result<Vec<_>, _>>()?;
-        let wanted: Vec<_> = tables.iter().map(|table| (&table.buffer, table.bytes)).collect();
-        let bytes = self.link.read(&wanted)?;
-        Ok(fields.iter().zip(bytes).map(|(&field, bytes)| (field, tables::numbers(field, &bytes))).collect())
+        let alone = self.members.len() == 1;
+        let mut parts = Vec::new();
+        for Member { tables, .. } in &self.members {
+            let present: Vec<Field> = fields.iter().copied().filter(|&field| alone || tables.field(field).is_ok()).collect();
+            let bytes = read_fields(&self.link, tables, &present)?;
+            let columns = present.iter().zip(bytes).map(|(&field, bytes)| (field, tables::numbers(field, &bytes))).collect();
+            parts.push(Part { particles: tables.params.count as usize, columns });
+        }
+        if alone { Ok(parts.remove(0).columns) } else { joined(fields, &parts, |field| self.tables().words(field) as usize) }
     }
 
-    fn save(&mut self) -> Result<BTreeMap<Field, Vec<u8>>, String> {
-        let fields: Vec<Field> = self.tables.carried().collect();
-        let tables = fields.iter().map(|&field| self.tables.field(field)).collect::<Result<Vec<_>, _>>()?;
-        let wanted: Vec<_> = tables.iter().map(|table| (&table.buffer, table.bytes)).collect();
-        Ok(fields.into_iter().zip(self.link.read(&wanted)?).collect())
+    fn save(&mut self) -> Result<Vec<Saved>, String> {
+        let groups = self.members.iter().filter(|member| !member.planner.method.between);
+        let of_group = |member: &Member| {
+            let fields: Vec<Field> = member.tables.carried().collect();
+            let bytes = read_fields(&self.link, &member.tables, &fields)?;
+            Ok(fields.into_iter().zip(bytes).collect())
+        };
+        groups.map(of_group).collect()
     }
 
-    fn load(&mut self, columns: &BTreeMap<Field, Vec<u8>>) -> Result<(), String> {
-        columns.iter().try_for_each(|(field, bytes)| self.write_table(field.name(), bytes))
+    fn load(&mut self, groups: &[Saved]) -> Result<(), String> {
+        for (Member { tables, .. }, columns) in self.members.iter().zip(groups) {
+            for (field, bytes) in columns {
+                write_table(&self.link, tables, field.name(), bytes)?;
+            }
+        }
+        Ok(())
     }
 
     fn set_steps_done(&mut self, steps: u32) {
         self.pace.steps_done = steps;
-        if let Ok(clock) = self.tables.get("clock") {
-            let place = offset_of!(Clock<f32>, steps_done) as u64;
-            self.link.queue.write_buffer(&clock.buffer, place, &steps.to_ne_bytes());
+        let place = offset_of!(Clock<f32>, steps_done) as u64;
+        for clock in self.clocks().unwrap_or_default() {
+            self.link.queue.write_buffer(clock, place, &steps.to_ne_bytes());
         }
     }
 
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {
-        let plan = |call: &Call| self.planner.actions(&self.link, &self.tables, std::slice::from_ref(call));
+        let plan = |call: &Call| planned(&self.link, &mut self.members, &[Act::Call(0, *call)]);
         let plans = calls.iter().map(plan).collect::<Result<Vec<_>, _>>()?;
         if plans.is_empty() {
             return Ok(Vec::new());
         }
-        let clock = self.tables.get("clock")?.buffer.clone();
+        let clock = self.tables().get("clock")?.buffer.clone();
         let kept = self.link.table("kept clock", CLOCK_BYTES)?;
-        self.submit([&Action::Copy { from: clock.clone(), to: kept.clone(), bytes: CLOCK_BYTES }])?;
-        let restore = Action::Copy { from: kept, to: clock, bytes: CLOCK_BYTES };
+        self.submit([&Action::Copy { from: (clock.clone(), 0), to: (kept.clone(), 0), bytes: CLOCK_BYTES }])?;
+        let restore = Action::Copy { from: (kept, 0), to: (clock, 0), bytes: CLOCK_BYTES };
         // Drivers compile at the first dispatch.
         self.time_once(&plans, &restore)?;
         let mut sums = vec![0.0; calls.len()];

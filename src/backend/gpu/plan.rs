@@ -15,8 +15,17 @@ pub type Patch = Box<dyn Fn(Pass, String) -> String + Send>;
 /// One command for the device.
 #[derive(Clone)]
 pub enum Action {
-    Dispatch { pipeline: ComputePipeline, bindings: wgpu::BindGroup, groups: (u32, u32) },
-    Copy { from: Buffer, to: Buffer, bytes: u64 },
+    Dispatch {
+        pipeline: ComputePipeline,
+        bindings: wgpu::BindGroup,
+        groups: (u32, u32),
+    },
+    /// Of each buffer the first byte that is copied.
+    Copy {
+        from: (Buffer, u64),
+        to: (Buffer, u64),
+        bytes: u64,
+    },
 }
 
 /// Writes commands, keeping dispatches together in one compute pass; wgpu puts the barriers between them.
@@ -33,7 +42,7 @@ pub fn encode<'a>(encoder: &mut CommandEncoder, actions: impl IntoIterator<Item 
             }
             Action::Copy { from, to, bytes } => {
                 open = None;
-                encoder.copy_buffer_to_buffer(from, 0, to, 0, *bytes);
+                encoder.copy_buffer_to_buffer(&from.0, from.1, &to.0, to.1, *bytes);
             }
         }
     }
@@ -102,7 +111,7 @@ impl Planner {
                 let words = [("words", f64::from(tables.words(field)))];
                 self.dispatch(link, tables, call, &words, &[("source", &table.buffer)], &mut actions)?;
                 let (from, to) = (tables.scratch.buffer.clone(), table.buffer.clone());
-                actions.push(Action::Copy { from, to, bytes: table.bytes });
+                actions.push(Action::Copy { from: (from, 0), to: (to, 0), bytes: table.bytes });
             }
         } else {
             self.dispatch(link, tables, call, &[], &[], &mut actions)?;

@@ -224,6 +224,9 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
         table("constraints", cast_slice(&state.constraints)),
         table("course", cast_slice(&state.course)),
     ];
+    if !state.group_clocks.is_empty() {
+        list.push(table("group_clocks", cast_slice(&state.group_clocks)));
+    }
     let counts = state.params.counts();
     list.extend(fields.iter().filter(|field| !field.in_parts()).map(|&field| Content {
         name: field.name(),

@@ -50,6 +50,7 @@ fn state(side: usize) -> State<Plane<f32>> {
         method,
         params,
         clock: Clock::default(),
+        group_clocks: Vec::new(),
         bodies: vec![body],
         coupling: vec![1.0],
         constraints: Vec::new(),
@@ -178,12 +179,12 @@ fn every_carried_field_is_reordered() {
     let mut wanted = state.columns.clone();
     wanted.reorder(&(0..400).rev().collect::<Vec<u32>>());
     gpu.run_calls(&[at(Pass::Reorder, 0.0)]).unwrap();
-    let saved = gpu.save().unwrap();
+    let saved = gpu.save().unwrap().remove(0);
     assert!(saved.len() >= 8 && saved.contains_key(&Field::DeviatoricStress));
     for (field, bytes) in &saved {
         assert_eq!(bytes, wanted.bytes(*field), "{}", field.name());
     }
-    gpu.load(&BTreeMap::from([(Field::Velocity, state.columns.bytes(Field::Velocity).to_vec())])).unwrap();
+    gpu.load(&[Saved::from([(Field::Velocity, state.columns.bytes(Field::Velocity).to_vec())])]).unwrap();
     assert_eq!(gpu.read_table("velocity").unwrap(), state.columns.bytes(Field::Velocity));
     assert!(gpu.write_table("velocity", &[0; 4]).is_err() && gpu.read_table("nothing").is_err());
 }
@@ -195,8 +196,8 @@ fn host_and_device_take_the_bytes_of_the_list() {
     state.columns = Columns::allocate(state.params.counts(), &step::fields(&state.method));
     let Some(gpu) = toy_gpu(&state, Some(128)) else { return };
     let listed = state.params.counts().bytes(&step::fields(&state.method), 2, 4);
-    assert_eq!((gpu.tables.column_bytes(), state.bytes()), (listed, listed));
-    let neighbors: u64 = gpu.tables.parts.iter().map(|part| part.neighbors.size()).sum();
+    assert_eq!((gpu.tables().column_bytes(), state.bytes()), (listed, listed));
+    let neighbors: u64 = gpu.tables().parts.iter().map(|part| part.neighbors.size()).sum();
     assert_eq!(neighbors, (state.columns.bytes(Field::Neighbors).len() as u64).next_multiple_of(16));
     assert!(gpu.bytes() >= listed);
 }

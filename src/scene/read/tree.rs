@@ -1,7 +1,7 @@
 //! The tree of a scene's values, each with the place where it was typed, from TOML and to [`File`].
 
 use super::super::file::File;
-use super::super::words::{Fault, one_line, sentence};
+use super::super::words::{Fault, nearest, one_line, sentence};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -215,7 +215,36 @@ impl<'a> Numbered<'a> {
     }
 }
 
+/// Tables that `[formulation]` has as its own; any other table in it is a named formulation.
+const OWN_TABLES: [&str; 2] = ["viscosity", "artificial_stress"];
+/// Key under which [`File`] has the named formulations.
+const FORMULATIONS: &str = "formulations";
+
+/// The scene with its named formulations beside the plain one, where serde finds them by their type. A table whose name is
+/// nearly that of an own one is left to be refused as a slip.
+fn formulations_apart(root: &Node) -> Node {
+    let mut root = root.clone();
+    let Value::Table(tables) = &mut root.value else { return root };
+    let Some(Entry { place, node: Node { value: Value::Table(keys), .. } }) = tables.get_mut("formulation") else { return root };
+    let named = |key: &str, entry: &Entry| {
+        let table = matches!(entry.node.value, Value::Table(_));
+        table && !OWN_TABLES.contains(&key) && nearest(key, OWN_TABLES.into_iter()).is_none()
+    };
+    let (apart, own) = std::mem::take(keys).into_iter().partition::<BTreeMap<_, _>, _>(|(key, entry)| named(key, entry));
+    *keys = own;
+    if !apart.is_empty() {
+        let node = Node { place: place.clone(), value: Value::Table(apart) };
+        let entry = Entry { place: place.clone(), node };
+        tables.insert(FORMULATIONS.to_string(), entry);
+    }
+    root
+}
+
 pub(super) fn deserialize(root: &Node, name: &str) -> Result<File, String> {
+    if root.keys().contains(&FORMULATIONS) {
+        return Err(format!("{name}: unknown key `{FORMULATIONS}`: a named formulation is typed as [formulation.NAME]"));
+    }
+    let root = &formulations_apart(root);
     let mut numbered = Numbered::default();
     let file = File::deserialize(numbered.deserializer(root))
         .map_err(|error| complaint(&numbered.sites[error.span().map_or(0, |span| span.start)], error.message(), name))?;
@@ -232,7 +261,8 @@ fn complaint(site: &Site, message: &str, name: &str) -> String {
         _ => None,
     };
     let (found, keys) = (site.node.describe(), site.node.keys());
-    let fault = Fault { message, path: &site.path, found, word, keys };
+    let path: Vec<String> = site.path.iter().map(|part| part.replace(FORMULATIONS, "formulation")).collect();
+    let fault = Fault { message, path: &path, found, word, keys };
     format!("{}: {}", show(name, site.place), sentence(&fault))
 }
 

@@ -35,7 +35,7 @@ fn chart(rows: &[Row]) -> Picture {
         let (points, labels) = own.filter_map(point).unzip();
         Series { name: formulation.into(), style: Style::Points, colour, points, labels }
     };
-    let formulations = ["eulerian", "total_lagrangian", "corrected_kernel"];
+    let formulations = ["eulerian", "total_lagrangian", "corrected_kernel", "eulerian + total_lagrangian"];
     let series = formulations.into_iter().enumerate().map(series).filter(|series| !series.points.is_empty()).collect();
     Picture::Chart(Chart {
         title: "Time of a step against memory".into(),

@@ -35,7 +35,7 @@ pub fn cells(row: &Row) -> [String; TITLES.len()] {
     [
         row.scene.clone(),
         format!("{}D", row.dimension),
-        row.formulation.into(),
+        row.formulation.clone(),
         if row.own_parts_suffice { "suffice" } else { "DIFFER" }.into(),
         row.particles.to_string(),
         row.fields.len().to_string(),
@@ -88,7 +88,7 @@ pub fn write(path: &Path, rows: &[Row], choice: &Choice) -> Result<(), String> {
         let cells = [
             row.scene.clone(),
             row.dimension.to_string(),
-            row.formulation.into(),
+            row.formulation.clone(),
             row.particles.to_string(),
             row.fields.len().to_string(),
             row.passes.len().to_string(),

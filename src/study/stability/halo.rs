@@ -30,7 +30,7 @@ pub(super) fn amplitudes<S: Space<Real = f64>>(setting: &Setting, start: &Start,
     let scene = start.scene(setting, course, extended(setting, start.counts))?;
     let mut halo = Halo::<S>::new(&scene, start.counts, setting)?;
     halo.run(&step::begin_run(&scene.method));
-    halo.cpu.state.clock.step = course.step;
+    halo.cpu.members[0].clock.step = course.step;
     let mut amplitudes = vec![1.0];
     for _ in 0..samples() {
         for _ in 0..course.steps {
@@ -59,7 +59,7 @@ impl<S: Space<Real = f64>> Halo<S> {
         let gradient = deformation - DMat3::IDENTITY;
         let mut cpu = Cpu::<S>::new(scene.state(false));
         cpu.begin_segment(0.0, scene.file.duration, u32::MAX, true)?;
-        let place = |i: usize| scene.particles[cpu.state.columns.number[i] as usize].position;
+        let place = |i: usize| scene.particles[cpu.members[0].columns.number[i] as usize].position;
         let cell = |x: DVec3| -> [i64; 3] { (x / spacing).round().to_array().map(|number| number as i64) };
         let wrapped = |cell: [i64; 3]| -> [i64; 3] { std::array::from_fn(|axis| cell[axis].rem_euclid(counts[axis] as i64)) };
         let count = scene.particles.len();
@@ -72,7 +72,7 @@ impl<S: Space<Real = f64>> Halo<S> {
         };
         let copies = (0..count).filter_map(copy).collect();
         let uniform: Vec<DVec3> = (0..count).map(|i| gradient * place(i)).collect();
-        for (displacement, uniform) in cpu.state.columns.displacement.iter_mut().zip(uniform) {
+        for (displacement, uniform) in cpu.members[0].columns.displacement.iter_mut().zip(uniform) {
             *displacement = S::vec_from(uniform.to_array());
         }
         // The clock stands: nothing here is prescribed in time.
@@ -84,7 +84,7 @@ impl<S: Space<Real = f64>> Halo<S> {
 
     /// Weakens the distinct bonds, each of which is one of the lattice's.
     fn weaken(&mut self, damage: &Damage, spacing: f64) {
-        let state = &mut self.cpu.state;
+        let state = &mut self.cpu.members[0];
         for row in &mut state.bond_table.rows {
             let left = damage.factor(S::vec_to(row.x), spacing);
             (row.gradient, row.weight) = (row.gradient * left, row.weight * left);
@@ -109,7 +109,7 @@ impl<S: Space<Real = f64>> Halo<S> {
     }
 
     fn take(&mut self, pass: Pass, stage: Stage) {
-        let state = &mut self.cpu.state;
+        let state = &mut self.cpu.members[0];
         if pass == Pass::Deform {
             for &(copy, original, more) in &self.copies {
                 let columns = &mut state.columns;
@@ -122,7 +122,7 @@ impl<S: Space<Real = f64>> Halo<S> {
 
     /// Places and velocities of the box.
     fn velocities(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
-        let velocity = &self.cpu.state.columns.velocity;
+        let velocity = &self.cpu.members[0].columns.velocity;
         self.originals.iter().map(|&(i, place)| (place, DVec3::from(S::vec_to(velocity[i]))))
     }
 }
@@ -146,16 +146,16 @@ pub(super) mod tests {
     fn error_in<S: Space<Real = f64>>(setting: &Setting, counts: [usize; 3], wave: DVec3, xi: DVec3) -> f64 {
         let scene = parsed(&extended(setting, counts)).unwrap();
         let mut halo = Halo::<S>::new(&scene, counts, setting).unwrap();
-        let uniform = halo.cpu.state.columns.displacement.clone();
+        let uniform = halo.cpu.members[0].columns.displacement.clone();
         let sine = |x: DVec3| (wave.dot(x) + 0.4).sin();
         let amount = 1e-5 * setting.spacing();
         let mut side = |amount: f64| -> Vec<DVec3> {
-            halo.cpu.state.columns.displacement.clone_from(&uniform);
+            halo.cpu.members[0].columns.displacement.clone_from(&uniform);
             for &(i, x) in &halo.originals {
-                halo.cpu.state.columns.displacement[i] += S::vec_from((xi * (amount * sine(x))).to_array());
+                halo.cpu.members[0].columns.displacement[i] += S::vec_from((xi * (amount * sine(x))).to_array());
             }
             halo.run(&step::begin_run(&scene.method));
-            let accelerations = &halo.cpu.state.columns.acceleration;
+            let accelerations = &halo.cpu.members[0].columns.acceleration;
             halo.originals.iter().map(|&(i, _)| DVec3::from(S::vec_to(accelerations[i]))).collect()
         };
         let (plus, minus) = (side(amount), side(-amount));

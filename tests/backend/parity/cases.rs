@@ -24,6 +24,8 @@ pub struct Case {
     pub compensated: bool,
     /// Between the two blocks, in spacings.
     pub gap: f64,
+    /// The second body has a formulation of its own: the case is what acts between the two.
+    pub apart: bool,
     /// Lines of the scene: those of no table, of the formulation, and of the time.
     pub top: &'static str,
     pub formulation: &'static str,
@@ -48,6 +50,7 @@ const BARE: Case = Case {
     laws: [""; 2],
     compensated: false,
     gap: GAP,
+    apart: false,
     top: "",
     formulation: "",
     time: "",
@@ -284,6 +287,30 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             top: "contact = [{ between = [\"first\", \"second\"],
                 zones = { radius = 2, stiffness = 1e-3, form = \"printed\", normals = \"all\", friction = 0.3 } }]",
             formulation: "kind = \"total_lagrangian\"",
+            ..BARE
+        },
+        Case {
+            name: "between groups, a potential",
+            bodies: 2,
+            apart: true,
+            compensated: true,
+            top: "contact = [{ between = [\"first\", \"second\"], potential = { law = \"quadratic\", stiffness = 0.5, range = 2 } }]",
+            ..BARE
+        },
+        Case {
+            name: "between groups, a colour field in a periodic box",
+            bodies: 2,
+            apart: true,
+            periodic: true,
+            top: "contact = [{ between = [\"first\", \"second\"], colour_field = { stiffness = 0.5, threshold = 0.2, range = 5 } }]",
+            time: "integrator = \"ssp_rk3\"",
+            ..BARE
+        },
+        Case {
+            name: "between groups that do not touch",
+            bodies: 2,
+            apart: true,
+            top: "contact = [{ between = [\"first\", \"second\"], kernel = 0 }]",
             ..BARE
         },
         Case {
@@ -551,6 +578,9 @@ impl Case {
         text += &self.block("first", 0.0, first, 1.0);
         if self.bodies == 2 {
             text += &self.block("second", first[0] + self.gap, second, FINER);
+            if self.apart {
+                text += "formulation = \"other\"\n";
+            }
         }
         text += &self.material("first", 1.0);
         text += &self.material("second", 2.2);
@@ -562,6 +592,9 @@ impl Case {
             text += &self.boundaries();
         }
         text += &self.symmetries();
+        if self.apart {
+            text += "[formulation.other]\ngradient = \"adjoint\"\n";
+        }
         text + &format!("[formulation]\n{}\n[time]\n{}\n", self.formulation, self.time)
     }
 

@@ -6,7 +6,7 @@ use super::tables::{field, padding};
 use lithosph::fields::{Field, Set, Type};
 use lithosph::pair::separation;
 use lithosph::pass::Pass;
-use lithosph::rows::{NEIGHBOR_BITS, NEIGHBOR_MASK};
+use lithosph::rows::{Clock, NEIGHBOR_BITS, NEIGHBOR_MASK};
 use lithosph::smoothing::Smoothing;
 use lithosph::state::State;
 use lithosph::tensor::{Real, Space};
@@ -105,10 +105,8 @@ fn worst(truth: &[f64], values: &[f64]) -> f64 {
 /// The whole numbers of a table; with `sorted`, those of a cell in ascending order.
 fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<u32>> {
     match name {
-        "clock" => {
-            let c = &state.clock;
-            Some(vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.fault])
-        }
+        "clock" => Some(counts_of(&state.clock)),
+        "group_clocks" => Some(state.group_clocks.iter().flat_map(counts_of).collect()),
         "balance" => Some(vec![state.balance.downhill]),
         "cell_count" => Some(state.columns.cell_count.clone()),
         "cell_start" => Some(state.columns.cell_start.clone()),
@@ -145,6 +143,10 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
     }
 }
 
+fn counts_of<R>(c: &Clock<R>) -> Vec<u32> {
+    vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.fault]
+}
+
 /// Places of the neighbours kept, each particle's in order.
 fn kept<S: Space>(state: &State<S>) -> impl Iterator<Item = usize> {
     let count = state.params.count as usize;
@@ -168,6 +170,7 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
             ];
             parts.map(|(label, value)| one(label, vec![value])).to_vec()
         }
+        "group_clocks" => vec![one(name, state.group_clocks.iter().map(|clock| clock.step.f64()).collect())],
         "balance" => {
             let b = &state.balance;
             let parts = [

@@ -20,6 +20,7 @@ fn known(name: &str) -> Field {
 /// Every table that a pass may write: clock, balance, and the fields of this state.
 pub fn names<S: Space>(state: &State<S>) -> Vec<&'static str> {
     let sought = state.method.quasi_static.is_some().then_some("balance");
+    let sought = sought.into_iter().chain(state.method.between.then_some("group_clocks"));
     ["clock"].into_iter().chain(sought).chain(state.columns.present().into_iter().map(Field::name)).collect()
 }
 
@@ -28,6 +29,7 @@ pub fn upload<S: Space<Real = f32>>(gpu: &mut Gpu, state: &State<S>) {
         match name {
             "clock" => gpu.write_table(name, bytes_of(&state.clock)).unwrap(),
             "balance" => gpu.write_table(name, bytes_of(&state.balance)).unwrap(),
+            "group_clocks" => gpu.write_table(name, cast_slice(&state.group_clocks)).unwrap(),
             _ => gpu.write_table(name, state.columns.bytes(known(name))).unwrap(),
         }
     }
@@ -39,6 +41,7 @@ pub fn download<S: Space<Real = f32>>(gpu: &Gpu, state: &mut State<S>, names: &[
         match *name {
             "clock" => state.clock = pod_read_unaligned(&bytes),
             "balance" => state.balance = pod_read_unaligned(&bytes),
+            "group_clocks" => cast_slice_mut(&mut state.group_clocks).copy_from_slice(&bytes),
             _ => state.columns.bytes_mut(known(name)).copy_from_slice(&bytes),
         }
     }
@@ -49,6 +52,7 @@ pub fn different<S: Space<Real = f32>>(a: &State<S>, b: &State<S>) -> Vec<&'stat
     let differs = |name: &&str| match *name {
         "clock" => bytes_of(&a.clock) != bytes_of(&b.clock),
         "balance" => a.balance != b.balance,
+        "group_clocks" => a.group_clocks != b.group_clocks,
         name => a.columns.bytes(known(name)) != b.columns.bytes(known(name)),
     };
     names(b).into_iter().filter(differs).collect()
@@ -83,6 +87,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         method: from.method.clone(),
         params: params(&from.params, real),
         clock: clock(&from.clock, real),
+        group_clocks: from.group_clocks.iter().map(|group| clock(group, real)).collect(),
         bodies: from.bodies.iter().map(body).collect(),
         coupling: from.coupling.iter().map(|&x| real(x)).collect(),
         constraints: from.constraints.iter().map(constraint).collect(),
@@ -202,6 +207,10 @@ pub fn random_state<S: Space<Real = f32>>(case: &Case, seed: u64, fraction: f32)
     state.columns.displacement[0] = S::Vec::default();
     state.clock = clock_of(&state, fraction);
     state.balance = balance_of(state.clock.step);
+    let clock = state.clock;
+    for (k, group) in state.group_clocks.iter_mut().enumerate() {
+        *group = Clock { step: clock.step * (1.3 - 0.2 * k as f32), lists_built: 4 + k as u32, ..clock };
+    }
     state
 }
 

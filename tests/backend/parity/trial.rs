@@ -138,6 +138,40 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
         }
     }
 
+    /// Groups of which one has stopped, has a fault, or has moved; and a fault of the list between them.
+    pub fn run_meetings(&mut self) {
+        let mut usual = self.before.clone();
+        usual.clock = Clock { running: 1, rebuild: 1, fault: 0, ..usual.clock };
+        let stepped = usual.clock.step;
+        for (k, group) in usual.group_clocks.iter_mut().enumerate() {
+            *group = Clock { running: 1, fault: 0, step: stepped * (1.3 - 0.2 * k as f32), ..*group };
+        }
+        usual.columns.velocity.iter_mut().for_each(|v| *v = *v * 0.1);
+        usual.columns.listed_displacement = usual.columns.displacement.clone();
+        let mut end = |state: State<N>| {
+            self.truth = convert(&state);
+            self.run(Call { pass: Pass::BoundBetween, stage: Stage::default() });
+            self.truth.clock
+        };
+        let calm = end(usual.clone());
+        assert_eq!((calm.running, calm.rebuild, calm.fault), (1, 0, 0));
+        assert_eq!(calm.step as f32, usual.group_clocks[1].step, "the shortest step is that of the second group");
+        let mut moved = usual.clone();
+        moved.columns.listed_displacement[500][0] += moved.params.slack;
+        assert_eq!(end(moved).rebuild, 1);
+        let mut over = usual.clone();
+        over.group_clocks[0].running = 0;
+        assert_eq!(end(over).running, 0);
+        let mut broken = usual.clone();
+        (broken.group_clocks[1].fault, broken.group_clocks[1].running) = (3, 0);
+        let clock = end(broken);
+        assert_eq!((clock.fault, clock.running), (3, 0));
+        let mut full = usual.clone();
+        full.clock.fault = 1;
+        let clock = end(full);
+        assert_eq!((clock.fault, clock.running), (1, 0));
+    }
+
     /// Uphill, at the first step, in equilibrium, out of steps, and beyond a fault.
     pub fn run_descent_ends(&mut self) {
         let usual = State { clock: Clock { running: 1, rebuild: 1, ..self.before.clock }, ..self.before.clone() };
