@@ -349,7 +349,8 @@ fn list(path: Option<&Path>) -> Result<i32, Stop> {
             say(&format!("  {:<24} {}", law.word(), law.about()));
             for number in law.declaration().numbers {
                 let default = number.default.map_or_else(String::new, |value| format!("; {value} unless given"));
-                say(&format!("    {:<22} {}{default}", number.key, number.about));
+                let unit = material::unit_words(number.dimensions);
+                say(&format!("    {:<22} {} [{unit}]{default}", number.key, number.about));
             }
         }
     }

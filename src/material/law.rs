@@ -61,6 +61,20 @@ pub const TEMPERATURE: Dimensions = [0, 0, 0, 1];
 pub const INVERSE_TEMPERATURE: Dimensions = [0, 0, 0, -1];
 pub const SPECIFIC_HEAT: Dimensions = [2, 0, -2, -1];
 
+/// A unit in words that hold in any system of units: "stress", "1/time".
+pub fn unit_words(dimensions: Dimensions) -> &'static str {
+    match dimensions {
+        NONE => "1",
+        STRESS => "stress",
+        VISCOSITY => "stress time",
+        RATE => "1/time",
+        TEMPERATURE => "temperature",
+        INVERSE_TEMPERATURE => "1/temperature",
+        SPECIFIC_HEAT => "energy/(mass temperature)",
+        _ => unreachable!("every unit of a declaration has its words"),
+    }
+}
+
 /// What a number may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {

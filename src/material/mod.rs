@@ -13,7 +13,7 @@ mod point;
 pub mod strain;
 pub mod yielding;
 
-pub use law::{Declaration, NUMBERS, Number, Range, Reads, Role};
+pub use law::{Declaration, NUMBERS, Number, Range, Reads, Role, unit_words};
 pub use point::{Flow, Memory, Point};
 
 use crate::rows::Body;

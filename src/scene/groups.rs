@@ -58,7 +58,7 @@ fn one_group(a: &FormulationTable, b: &FormulationTable) -> bool {
 /// A formulation without the numbers that each body of a group has for itself. What strengthens nothing in one formulation is
 /// taken to have the form that it has in the other.
 fn structure(own: &FormulationTable, other: &FormulationTable) -> FormulationTable {
-    let mut bare = FormulationTable { smoothing_length: 0.0, hourglass: None, ..own.clone() };
+    let mut bare = FormulationTable { smoothing_length: 0.0, hourglass: None, gradient: Some(own.gradient()), ..own.clone() };
     bare.viscosity = own.viscosity.clone().or_else(|| other.viscosity.clone());
     if let Some(viscosity) = &mut bare.viscosity {
         (viscosity.alpha, viscosity.beta) = (0.0, None);

@@ -1,7 +1,7 @@
 //! A scene's first state, in the precision of the backend that will step it.
 
-use super::Scene;
 use super::file::Viscosity;
+use super::{Particle, Scene};
 use crate::bond::BondTable;
 use crate::fields::Columns;
 use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params};
@@ -134,9 +134,14 @@ impl Scene {
         self.particles.iter().fold(ends, |(low, high), p| (low.min(p.position), high.max(p.position)))
     }
 
-    /// Largest smoothing length.
+    /// h of a particle at the start: a number of its body.
+    pub fn smoothing_length_of(&self, particle: &Particle) -> f64 {
+        self.bodies[particle.body as usize].smoothing_length
+    }
+
+    /// The largest smoothing length of a particle: what reaches and cells are made from.
     pub fn smoothing_length(&self) -> f64 {
-        self.bodies.iter().map(|b| b.smoothing_length).fold(0.0, f64::max)
+        self.particles.iter().map(|particle| self.smoothing_length_of(particle)).fold(0.0, f64::max)
     }
 
     fn reach(&self) -> f64 {
