@@ -124,6 +124,27 @@ pub struct Body<R> {
     pub numbers: [R; NUMBERS],
 }
 
+/// Numbers of the formulation as a body has them.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct BodyOptions<R> {
+    /// Monaghan's viscosity, without dimension: that of its linear and that of its quadratic term.
+    pub alpha: R,
+    pub beta: R,
+    /// Strength of the artificial stress, without dimension.
+    pub artificial_epsilon: R,
+    /// Strength of the hourglass energy, over Young's modulus.
+    pub hourglass: R,
+}
+
+impl<R: Real> BodyOptions<R> {
+    pub fn map<T: Real>(&self, real: impl Fn(R) -> T) -> BodyOptions<T> {
+        let [alpha, beta, artificial_epsilon, hourglass] =
+            [self.alpha, self.beta, self.artificial_epsilon, self.hourglass].map(real);
+        BodyOptions { alpha, beta, artificial_epsilon, hourglass }
+    }
+}
+
 /// How two bodies touch. Twin: `ContactPair` in `shaders/lib/params.wgsl`.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]

@@ -2,7 +2,7 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, Axis, File, Fixed};
+use super::file::{ArtificialSpacing, Axis, File, Fixed, Viscosity};
 use super::material::Material;
 use super::packing::fill;
 use super::read::{Read, hint};
@@ -12,6 +12,7 @@ use super::surfaces::Parts;
 use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
+use crate::rows::BodyOptions;
 use glam::DVec3;
 use std::sync::OnceLock;
 
@@ -181,11 +182,24 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             spacing,
             smoothing_length: file.formulation.smoothing_length * spacing,
             material,
+            options: options(file),
             relative_volume,
             deviator,
         });
     }
     Ok(list)
+}
+
+/// Numbers of the formulation as they are for a body; 0 for what the scene does not name.
+fn options(file: &File) -> BodyOptions<f64> {
+    let f = &file.formulation;
+    let viscosity = |number: fn(&Viscosity) -> f64| f.viscosity.as_ref().map_or(0.0, number);
+    BodyOptions {
+        alpha: viscosity(|v| v.alpha),
+        beta: viscosity(|v| v.beta.unwrap_or(2.0 * v.alpha)),
+        artificial_epsilon: f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon),
+        hourglass: file.hourglass(),
+    }
 }
 
 fn names(bodies: &[SceneBody]) -> Vec<&str> {

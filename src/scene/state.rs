@@ -1,7 +1,6 @@
 //! A scene's first state, in the precision of the backend that will step it.
 
 use super::Scene;
-use super::file::Viscosity;
 use crate::bond::BondTable;
 use crate::fields::Columns;
 use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params};
@@ -249,8 +248,8 @@ impl Scene {
         let (origin, size, cells) = self.grid();
         let g = self.file.body_force.clone().unwrap_or_default();
         let component = |k: usize| real(g.get(k).copied().unwrap_or(0.0));
-        let none = Viscosity { alpha: 0.0, beta: None, softening: 0.0 };
-        let viscosity = f.viscosity.as_ref().unwrap_or(&none);
+        let options = &self.bodies[0].options;
+        let softening = f.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.softening);
         let mut planes = [[real(0.0); 4]; 3];
         for (slot, plane) in planes.iter_mut().zip(&self.planes) {
             *slot = [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset].map(real);
@@ -297,12 +296,12 @@ impl Scene {
             contact_rate: real(self.contact_rate()),
             contact_apart: real(CONTACT_APART * self.bodies.iter().map(|b| b.spacing).fold(0.0, f64::max)),
             slack: real(0.5 * self.margin()),
-            hourglass: real(self.file.hourglass()),
-            alpha: real(viscosity.alpha),
-            beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
-            softening: real(viscosity.softening.max(LEAST_SOFTENING)),
+            hourglass: real(options.hourglass),
+            alpha: real(options.alpha),
+            beta: real(options.beta),
+            softening: real(softening.max(LEAST_SOFTENING)),
             smoothing_weight: real(f.xsph.or(f.velocity_filter).unwrap_or(0.0)),
-            artificial_epsilon: real(f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon)),
+            artificial_epsilon: real(options.artificial_epsilon),
             artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
             cfl: real(self.file.time.cfl),
             fixed_step: real(self.file.time.step.unwrap_or(0.0)),
