@@ -124,7 +124,7 @@ pub struct Body<R> {
     pub numbers: [R; NUMBERS],
 }
 
-/// Numbers of the formulation as a body has them.
+/// Numbers of the formulation as a body has them. Twin: `shaders/lib/body_options.wgsl`
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C)]
 pub struct BodyOptions<R> {

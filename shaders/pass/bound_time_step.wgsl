@@ -4,6 +4,9 @@
 // step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 #import invocation
 #import body
+#if body_options
+#import body_options
+#endif
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
@@ -66,7 +69,12 @@ fn bound_of(a: u32) -> vec4<real> {
 #else
     let compression = abs(trace(velocity_gradient[a]));
 #endif
+#if body_options
+    let options = options_of(a);
+    let signal = own.sound_speed * (1.0 + 0.6 * options.alpha) + 0.6 * options.beta * h * compression;
+#else
     let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
+#endif
     let pull = inner(acceleration[a], acceleration[a]);
     var rate = max(signal / h, sqrt(sqrt(pull) / h));
 #if facets

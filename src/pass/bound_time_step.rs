@@ -51,7 +51,7 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let (one, zero) = (S::Real::of(1.0), S::Real::of(0.0));
     let finite_strain = state.method.finite_strain();
     let compression = if finite_strain { zero } else { S::trace(columns.velocity_gradient[a]).abs() };
-    let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
+    let signal = body.sound_speed * (one + part * state.alpha(a)) + part * state.beta(a) * h * compression;
     let pull = S::inner(columns.acceleration[a], columns.acceleration[a]);
     let mut rate = (signal / h).max((pull.sqrt() / h).sqrt());
     if state.method.facets() {

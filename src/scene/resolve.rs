@@ -418,6 +418,7 @@ fn method(
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
         shear: bodies.iter().any(|b| b.material.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
+        body_options: bodies.iter().any(|body| body.options != bodies[0].options),
         coupling: coupling.iter().flatten().any(|&c| c != 1.0),
         constraints: !constraints.is_empty(),
         symmetry: !planes.is_empty(),

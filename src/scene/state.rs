@@ -29,12 +29,14 @@ impl Scene {
         method.compensated = compensated;
         let params = self.params::<S::Real>();
         let real = S::Real::of;
+        let own_options: &[super::SceneBody] = if method.body_options { &self.bodies } else { &[] };
         let mut state = State {
             columns: Columns::allocate(params.counts(), &step::fields(&method)),
             method,
             params,
             clock: Clock::default(),
             bodies: self.bodies.iter().map(super::SceneBody::numbers).collect(),
+            body_options: own_options.iter().map(|body| body.options.map(real)).collect(),
             coupling: self.coupling.iter().flatten().map(|&c| real(c)).collect(),
             facet_pairs: self.facet_pairs.iter().flatten().map(|pair| pair.map(real)).collect(),
             obstacles: self.obstacles.iter().map(|obstacle| obstacle.shape.cast()).collect(),
@@ -248,6 +250,7 @@ impl Scene {
         let (origin, size, cells) = self.grid();
         let g = self.file.body_force.clone().unwrap_or_default();
         let component = |k: usize| real(g.get(k).copied().unwrap_or(0.0));
+        // Where bodies differ in these numbers, no pass reads them here.
         let options = &self.bodies[0].options;
         let softening = f.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.softening);
         let mut planes = [[real(0.0); 4]; 3];

@@ -51,6 +51,7 @@ fn state(side: usize) -> State<Plane<f32>> {
         params,
         clock: Clock::default(),
         bodies: vec![body],
+        body_options: Vec::new(),
         coupling: vec![1.0],
         constraints: Vec::new(),
         course: Vec::new(),

@@ -84,6 +84,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         params: params(&from.params, real),
         clock: clock(&from.clock, real),
         bodies: from.bodies.iter().map(body).collect(),
+        body_options: from.body_options.iter().map(|options| options.map(real)).collect(),
         coupling: from.coupling.iter().map(|&x| real(x)).collect(),
         constraints: from.constraints.iter().map(constraint).collect(),
         course: from.course.iter().map(|point| point.map(real)).collect(),
