@@ -217,7 +217,7 @@ pub fn displacement_difference<S: Space, B: Source<S>>(state: &State<S>, a: usiz
 #[inline(always)]
 pub fn hourglass_stiffness<S: Space>(state: &State<S>, a: usize) -> S::Real {
     let body = state.body(a);
-    let elastic = state.params.hourglass * body.youngs_modulus;
+    let elastic = state.hourglass(a) * body.youngs_modulus;
     if !state.method.plastic() || body.yield_stress == S::Real::of(0.0) {
         return elastic;
     }

@@ -178,6 +178,8 @@ pub struct Method {
     /// Some material resists shear.
     pub shear: bool,
     pub many_bodies: bool,
+    /// Bodies differ in numbers of the formulation.
+    pub body_options: bool,
     /// Some pair of bodies does not act as one through the kernel.
     pub coupling: bool,
     pub constraints: bool,
@@ -222,6 +224,7 @@ impl Default for Method {
             gradient: Gradient::Plain,
             shear: true,
             many_bodies: false,
+            body_options: false,
             coupling: false,
             constraints: false,
             symmetry: false,
@@ -280,6 +283,7 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("quasi_static", |m| m.quasi_static.is_some()),
     ("shear", |m| m.shears()),
     ("many_bodies", |m| m.many_bodies),
+    ("body_options", |m| m.body_options),
     ("coupling", |m| m.coupling),
     ("constraints", |m| m.constraints),
     ("symmetry", |m| m.symmetry),

@@ -67,7 +67,9 @@ pub struct Params<R> {
     pub contact_apart: R,
     /// Displacement of a particle (length) after which the neighbour list must be built anew.
     pub slack: R,
-    /// Strength of the hourglass energy, over Young's modulus.
+    /// Strength of the hourglass energy, over Young's modulus. Where bodies differ in this and in the numbers of viscosity and
+    /// artificial stress, the largest of them all: [`BodyOptions`] has each body's own, and the bound on the time step takes
+    /// these.
     pub hourglass: R,
     pub alpha: R,
     pub beta: R,
@@ -122,6 +124,27 @@ pub struct Body<R> {
     pub padding: R,
     /// Numbers of the body's laws: those of a role begin at [`crate::material::Role::first`], in the order of its declaration.
     pub numbers: [R; NUMBERS],
+}
+
+/// Numbers of the formulation as a body has them. Twin: `shaders/lib/body_options.wgsl`
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct BodyOptions<R> {
+    /// Monaghan's viscosity, without dimension: that of its linear and that of its quadratic term.
+    pub alpha: R,
+    pub beta: R,
+    /// Strength of the artificial stress, without dimension.
+    pub artificial_epsilon: R,
+    /// Strength of the hourglass energy, over Young's modulus.
+    pub hourglass: R,
+}
+
+impl<R: Real> BodyOptions<R> {
+    pub fn map<T: Real>(&self, real: impl Fn(R) -> T) -> BodyOptions<T> {
+        let [alpha, beta, artificial_epsilon, hourglass] =
+            [self.alpha, self.beta, self.artificial_epsilon, self.hourglass].map(real);
+        BodyOptions { alpha, beta, artificial_epsilon, hourglass }
+    }
 }
 
 /// How two bodies touch. Twin: `ContactPair` in `shaders/lib/params.wgsl`.

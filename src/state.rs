@@ -4,7 +4,7 @@
 use crate::bond::BondTable;
 use crate::fields::{Columns, Field};
 use crate::method::Method;
-use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
+use crate::rows::{Balance, Body, BodyOptions, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
 use crate::tensor::{Real, Space};
 
 /// All tables of a run.
@@ -16,6 +16,8 @@ pub struct State<S: Space> {
     /// The clocks of the groups that this state acts between; empty in a group's own state.
     pub group_clocks: Vec<Clock<S::Real>>,
     pub bodies: Vec<Body<S::Real>>,
+    /// Numbers of the formulation of each body; empty where the bodies do not differ, since `params` then has them.
+    pub body_options: Vec<BodyOptions<S::Real>>,
     /// Weight of the kernel sums between bodies a and b at `a * body_count + b`.
     pub coupling: Vec<S::Real>,
     /// Contact between bodies a and b at `a * body_count + b`.
@@ -62,6 +64,30 @@ impl<S: Space> State<S> {
     #[inline(always)]
     pub fn smoothing_length(&self, a: usize) -> S::Real {
         self.body(a).smoothing_length
+    }
+    /// Linear term of the viscosity at a particle: a number of its body where bodies differ, else of the run.
+    #[inline(always)]
+    pub fn alpha(&self, a: usize) -> S::Real {
+        self.options(a).map_or(self.params.alpha, |options| options.alpha)
+    }
+    /// Quadratic term of the viscosity, likewise.
+    #[inline(always)]
+    pub fn beta(&self, a: usize) -> S::Real {
+        self.options(a).map_or(self.params.beta, |options| options.beta)
+    }
+    /// Strength of the artificial stress, likewise.
+    #[inline(always)]
+    pub fn artificial_epsilon(&self, a: usize) -> S::Real {
+        self.options(a).map_or(self.params.artificial_epsilon, |options| options.artificial_epsilon)
+    }
+    /// Strength of the hourglass energy over Young's modulus, likewise.
+    #[inline(always)]
+    pub fn hourglass(&self, a: usize) -> S::Real {
+        self.options(a).map_or(self.params.hourglass, |options| options.hourglass)
+    }
+    #[inline(always)]
+    fn options(&self, a: usize) -> Option<&BodyOptions<S::Real>> {
+        if self.method.body_options { Some(&self.body_options[self.body_index(a)]) } else { None }
     }
     /// Reference volume times reference density: constant.
     #[inline(always)]

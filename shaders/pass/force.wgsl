@@ -10,6 +10,11 @@
 #import pair
 #import coupling
 #import mass
+#if viscosity
+#if body_options
+#import body_options
+#endif
+#endif
 #if pair_velocity
 #import pair_velocity
 #endif
@@ -61,6 +66,9 @@ struct Own {
 #endif
 #if viscosity
     sound_speed: real,
+#if body_options
+    options: BodyOptions,
+#endif
 #endif
 #if scalar_form
     artificial: real,
@@ -100,6 +108,9 @@ fn own_of(a: u32) -> Own {
 #endif
 #if viscosity
     own.sound_speed = body_of(a).sound_speed;
+#if body_options
+    own.options = options_of(a);
+#endif
 #endif
 #if scalar_form
     own.artificial = artificial_pressure[a];
@@ -208,6 +219,14 @@ fn viscosity(own: Own, pair: Pair, v_ba: Vec) -> real {
     let mu = min(pair.h * approach / square, 0.0);
     let sound_speed = 0.5 * (own.sound_speed + body_of(pair.b).sound_speed);
     let mean_density = 0.5 * (own.density + density(pair.b));
+#if body_options
+    // The means of the two particles' numbers, so that both feel the same Pi and momentum is kept.
+    let other = options_of(pair.b);
+    let alpha = 0.5 * (own.options.alpha + other.alpha);
+    let beta = 0.5 * (own.options.beta + other.beta);
+    return (beta * mu - alpha * sound_speed) * mu / mean_density;
+#else
     return (params.beta * mu - params.alpha * sound_speed) * mu / mean_density;
+#endif
 }
 #endif

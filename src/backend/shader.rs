@@ -30,7 +30,7 @@ macro_rules! library {
 }
 
 library! {
-    lib: acceleration, body, body_index, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
+    lib: acceleration, body, body_index, body_options, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
         descent, deviatoric_rate, displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow,
         half_kick, hourglass_stiffness, inelastic, inverse, invocation,
         kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, radial_return, real,

@@ -40,6 +40,7 @@ pub const PASS: Declaration = {
             when(|m| m.hourglass, &[Displacement]),
             when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
             when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
+            when(|m| m.hourglass && m.plastic() && m.body_options && m.many_bodies, &[Body]),
             when(|m| m.quadratic_gradient(), &[QuadraticStress]),
         ],
         writes: &[always(&[Acceleration])],

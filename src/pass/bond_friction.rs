@@ -64,7 +64,8 @@ fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, 
     let x = bond.row.x - displacement_difference::<S, B>(state, a, bond);
     let square = S::inner(x, x);
     let mu = (h * S::Real::of(-1.0) * S::inner(v_ba, x) / (square + params.softening * h * h)).min(S::Real::of(0.0));
-    let pi = (params.beta * mu - params.alpha * body.sound_speed) * mu;
+    // Bonds join particles of one body.
+    let pi = (state.beta(a) * mu - state.alpha(a) * body.sound_speed) * mu;
     let reference = S::inner(bond.row.x, bond.row.x).sqrt();
     // The slope times V_b; m_b over rho_0 is V_b.
     x * (S::Real::of(-1.0) * pi * bond.row.weight * reference / square.sqrt().max(S::Real::of(1e-6) * h))

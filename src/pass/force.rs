@@ -168,7 +168,19 @@ fn viscosity<S: Space>(state: &State<S>, a: usize, pair: &Pair<S>) -> S::Real {
     let half = S::Real::of(0.5);
     let sound_speed = half * (state.body(a).sound_speed + state.body(pair.b).sound_speed);
     let density = half * (state.density(a) + state.density(pair.b));
-    (params.beta * mu - params.alpha * sound_speed) * mu / density
+    let (alpha, beta) = viscosities(state, a, pair.b);
+    (beta * mu - alpha * sound_speed) * mu / density
+}
+
+/// alpha and beta of a pair. Where bodies differ they are the means of the two particles' numbers, so that both feel the
+/// same Pi and momentum is kept.
+#[inline(always)]
+fn viscosities<S: Space>(state: &State<S>, a: usize, b: usize) -> (S::Real, S::Real) {
+    if !state.method.body_options {
+        return (state.params.alpha, state.params.beta);
+    }
+    let half = S::Real::of(0.5);
+    (half * (state.alpha(a) + state.alpha(b)), half * (state.beta(a) + state.beta(b)))
 }
 
 /// Small whole powers, without the cost of a general one.

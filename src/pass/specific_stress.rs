@@ -44,13 +44,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
             fill!(state, artificial_pressure, |a, slot| {
                 let pressure = material::pressure(state.body(a), state.columns.volumetric_strain[a]);
                 let tension = (-pressure).max(S::Real::of(0.0));
-                *slot = -state.params.artificial_epsilon * tension * square_of_volume(state, a);
+                *slot = -state.artificial_epsilon(a) * tension * square_of_volume(state, a);
             });
         }
         Some(ArtificialForm::Principal) => {
             fill!(state, artificial_stress, |a, slot| {
                 let tension = tensile_part::<S>(stress(state, a));
-                *slot = tension * (-state.params.artificial_epsilon * square_of_volume(state, a));
+                *slot = tension * (-state.artificial_epsilon(a) * square_of_volume(state, a));
             });
         }
         None => {}

@@ -38,8 +38,8 @@ impl Scene {
         if let Some(descent) = &file.quasi_static {
             return f64::from(descent.load_steps) * DESCENT;
         }
-        let alpha = file.formulation.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.alpha);
-        let rate = |body: &super::SceneBody| body.material.sound_speed() * (1.0 + 0.6 * alpha) / body.smoothing_length;
+        let rate =
+            |body: &super::SceneBody| body.material.sound_speed() * (1.0 + 0.6 * body.options.alpha) / body.smoothing_length;
         let wave = self.bodies.iter().map(rate).fold(0.0, f64::max);
         let step = file.time.step.unwrap_or(file.time.cfl / (wave * wave + self.contact_rate()).sqrt());
         file.duration / step

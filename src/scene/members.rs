@@ -2,7 +2,7 @@
 
 use super::facets;
 use super::material::Material;
-use crate::rows::{FacetPair, Obstacle};
+use crate::rows::{BodyOptions, FacetPair, Obstacle};
 use glam::DVec3;
 
 /// A body's numbers.
@@ -14,6 +14,8 @@ pub struct SceneBody {
     pub spacing: f64,
     pub smoothing_length: f64,
     pub material: Material,
+    /// What the formulation gives the body.
+    pub options: BodyOptions<f64>,
     /// Volume over unstressed volume at the start.
     pub relative_volume: f64,
     /// Deviatoric stress at the start: xx, yy, zz, xy, yz, xz.

@@ -80,19 +80,15 @@ impl Scene {
         needed.into_iter().collect()
     }
 
-    /// Refuses a scene of several groups where only one formulation is understood.
+    /// Refuses a scene whose bodies differ in their formulation, where only one is understood.
     ///
     /// # Errors
     /// One sentence that begins with the scene.
-    pub fn one_group(&self, what: &str) -> Result<(), String> {
-        if self.parts.is_empty() {
+    pub fn one_formulation(&self, what: &str) -> Result<(), String> {
+        if self.parts.is_empty() && !self.method.body_options {
             return Ok(());
         }
-        Err(format!(
-            "{}: {what} takes a scene whose bodies have one formulation; here they form {} groups",
-            self.label(),
-            self.parts.len()
-        ))
+        Err(format!("{}: {what} takes a scene whose bodies have one formulation", self.label()))
     }
 
     /// Names of the units of length, mass and time.

@@ -2,7 +2,7 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, Axis, File, Fixed, FormulationTable};
+use super::file::{ArtificialSpacing, Axis, File, Fixed, FormulationTable, Viscosity};
 use super::groups::{Group, across, groups, of_body};
 use super::material::Material;
 use super::packing::fill;
@@ -13,6 +13,7 @@ use super::surfaces::Parts;
 use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
+use crate::rows::BodyOptions;
 use glam::DVec3;
 use std::sync::OnceLock;
 
@@ -230,11 +231,24 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             spacing,
             smoothing_length: formulation.smoothing_length * spacing,
             material,
+            options: options(file, typed, formulation),
             relative_volume,
             deviator,
         });
     }
     Ok(list)
+}
+
+/// Numbers of a body's formulation; 0 for what it does not name.
+fn options(file: &File, body: &file::BodyTable, f: &FormulationTable) -> BodyOptions<f64> {
+    let viscosity = |number: fn(&Viscosity) -> f64| f.viscosity.as_ref().map_or(0.0, number);
+    let alike = file.body.iter().filter(|other| other.formulation == body.formulation);
+    BodyOptions {
+        alpha: viscosity(|v| v.alpha),
+        beta: viscosity(|v| v.beta.unwrap_or(2.0 * v.alpha)),
+        artificial_epsilon: f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon),
+        hourglass: f.hourglass(alike.into_iter().any(|body| file.yields(body))),
+    }
 }
 
 fn names(bodies: &[SceneBody]) -> Vec<&str> {
@@ -441,6 +455,7 @@ fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
     let mut laws: Vec<Law> = bodies.iter().flat_map(|body| body.material.laws()).collect();
     laws.sort_unstable();
     laws.dedup();
+    let strengthened = bodies.iter().any(|body| body.options.artificial_epsilon > 0.0);
     let held = scene.particles.iter().any(|particle| particle.constraint != 0);
     let driven = scene.obstacles.iter().any(|obstacle| obstacle.condition.is_some());
     let body_force = file.body_force.as_ref().is_some_and(|g| g.iter().any(|&x| x != 0.0));
@@ -455,10 +470,11 @@ fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
         between: false,
         corrected_kernel,
         laws,
-        hourglass: lagrangian && file.hourglass() > 0.0,
+        hourglass: lagrangian && bodies.iter().any(|body| body.options.hourglass > 0.0),
         bond_table: lagrangian && f.bond_table.unwrap_or(true),
         shear: bodies.iter().any(|b| b.material.shear_modulus > 0.0),
         many_bodies: bodies.len() > 1,
+        body_options: bodies.iter().any(|body| body.options != bodies[0].options),
         coupling: scene.coupling.iter().flatten().any(|&c| c != 1.0),
         constraints: held || driven,
         symmetry: !scene.planes.is_empty(),
@@ -468,10 +484,10 @@ fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
         gap: file.contact.iter().find_map(|contact| contact.gap.as_ref()).map(|gap| gap.form),
         obstacles: !scene.obstacles.is_empty(),
         friction: rubs(file),
-        viscosity: f.viscosity.as_ref().is_some_and(|v| v.alpha > 0.0 || v.beta.unwrap_or(0.0) > 0.0),
+        viscosity: bodies.iter().any(|body| body.options.alpha > 0.0 || body.options.beta > 0.0),
         xsph: f.xsph.is_some_and(|w| w > 0.0),
         velocity_filter: f.velocity_filter.is_some_and(|w| w > 0.0),
-        artificial_stress: f.artificial_stress.as_ref().filter(|a| a.epsilon > 0.0).map(|a| a.form),
+        artificial_stress: f.artificial_stress.as_ref().filter(|_| strengthened).map(|a| a.form),
         internal_energy: f.internal_energy,
         dissipated_energy: f.dissipated_energy,
         compensated: false,
@@ -532,9 +548,11 @@ fn lagrangian_only(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result
     refuse.unless(lagrangian || f.hourglass.is_none(), &["formulation", "hourglass"], || {
         "hourglass belongs to formulation.kind `total_lagrangian`".into()
     })?;
-    refuse.unless(file.hourglass() >= 0.0 && file.hourglass().is_finite(), &["formulation", "hourglass"], || {
-        format!("hourglass must be 0 or a positive number, found {}", file.hourglass())
-    })?;
+    let strong = bodies.iter().find(|body| !(body.options.hourglass >= 0.0 && body.options.hourglass.is_finite()));
+    if let Some(SceneBody { options, .. }) = strong {
+        let message = format!("hourglass must be 0 or a positive number, found {}", options.hourglass);
+        return Err(refuse.at(&["formulation", "hourglass"], message));
+    }
     let remembers = bodies.iter().any(|body| body.material.has_memory());
     let conservative = lagrangian && f.viscosity.is_none() && !remembers;
     refuse.unless(conservative || file.time.integrator != Integrator::Pefrl, &["time", "integrator"], || {

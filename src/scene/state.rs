@@ -1,10 +1,9 @@
 //! A scene's first state, in the precision of the backend that will step it.
 
-use super::file::Viscosity;
 use super::{Particle, Scene};
 use crate::bond::BondTable;
 use crate::fields::Columns;
-use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, Mover, Params};
+use crate::rows::{Balance, Body, BodyOptions, Clock, Constraint, ContactPair, Mover, Params};
 use crate::state::State;
 use crate::step;
 use crate::tensor::{Real, Space};
@@ -30,6 +29,8 @@ impl Scene {
         method.compensated = compensated;
         let params = self.params::<S::Real>();
         let real = S::Real::of;
+        let own_options: Vec<_> = self.bodies.iter().map(|body| body.options.map(real)).collect();
+        let body_options = method.body_options;
         let mut state = State {
             columns: Columns::allocate(params.counts(), &step::fields(&method)),
             method,
@@ -37,6 +38,7 @@ impl Scene {
             clock: Clock::default(),
             group_clocks: vec![Clock::default(); self.parts.len()],
             bodies: self.by_body(&self.bodies.iter().map(super::SceneBody::numbers).collect::<Vec<_>>()),
+            body_options: if body_options { self.by_body(&own_options) } else { Vec::new() },
             coupling: self.by_pair(&self.coupling).into_iter().map(real).collect(),
             facet_pairs: self.by_pair(&self.facet_pairs).iter().map(|pair| pair.map(real)).collect(),
             obstacles: self.own_obstacles().iter().map(|obstacle| obstacle.shape.cast()).collect(),
@@ -262,8 +264,10 @@ impl Scene {
         let (origin, size, cells) = self.grid();
         let g = self.file.body_force.clone().unwrap_or_default();
         let component = |k: usize| real(g.get(k).copied().unwrap_or(0.0));
-        let none = Viscosity { alpha: 0.0, beta: None, softening: 0.0 };
-        let viscosity = f.viscosity.as_ref().unwrap_or(&none);
+        // Where bodies differ in these numbers, no pass reads them here.
+        let largest =
+            |number: fn(&BodyOptions<f64>) -> f64| self.bodies.iter().map(|body| number(&body.options)).fold(0.0, f64::max);
+        let softening = f.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.softening);
         let mut planes = [[real(0.0); 4]; 3];
         for (slot, plane) in planes.iter_mut().zip(&self.planes) {
             *slot = [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset].map(real);
@@ -310,12 +314,12 @@ impl Scene {
             contact_rate: real(self.contact_rate()),
             contact_apart: real(CONTACT_APART * self.bodies.iter().map(|b| b.spacing).fold(0.0, f64::max)),
             slack: real(0.5 * self.margin()),
-            hourglass: real(self.file.hourglass()),
-            alpha: real(viscosity.alpha),
-            beta: real(viscosity.beta.unwrap_or(2.0 * viscosity.alpha)),
-            softening: real(viscosity.softening.max(LEAST_SOFTENING)),
+            hourglass: real(largest(|options| options.hourglass)),
+            alpha: real(largest(|options| options.alpha)),
+            beta: real(largest(|options| options.beta)),
+            softening: real(softening.max(LEAST_SOFTENING)),
             smoothing_weight: real(f.xsph.or(f.velocity_filter).unwrap_or(0.0)),
-            artificial_epsilon: real(f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon)),
+            artificial_epsilon: real(largest(|options| options.artificial_epsilon)),
             artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
             cfl: real(self.file.time.cfl),
             fixed_step: real(self.file.time.step.unwrap_or(0.0)),
@@ -331,7 +335,9 @@ impl Scene {
         let length = (high - low).max(DVec3::ZERO);
         let most = (CELLS_PER_PARTICLE * self.particles.len()).max(1 << 12);
         // A little more than the reach, so that rounding cannot put a pair two cells apart.
-        let mut side = self.reach().max(self.contact_reach()).max(self.facet_cell()) * 1.001;
+        let least = self.reach().max(self.contact_reach()).max(self.facet_cell());
+        // Between groups that do not touch nothing is ever sorted into cells.
+        let mut side = if least > 0.0 { 1.001 * least } else { self.smoothing_length() };
         loop {
             let (mut origin, mut size, mut cells) = ([0.0; 3], [side; 3], [1u32; 3]);
             for k in 0..self.dimension() {

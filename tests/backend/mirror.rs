@@ -1,22 +1,29 @@
-//! The host's structures against their twins in `shaders/lib/params.wgsl`: same members, same offsets, same size.
+//! The host's structures against their twins in `shaders/lib`: same members, same offsets, same size.
 
 use lithosph::backend::shader::{compose, offsets};
 use lithosph::method::Method;
 use lithosph::pass::Pass;
-use lithosph::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Params};
+use lithosph::rows::{Balance, Body, BodyOptions, Clock, Constraint, ContactPair, FacetPair, Mover, Params};
 use lithosph::scene::Scene;
 use std::mem::offset_of;
 
-/// The text of a pass that uses every structure.
-fn text() -> String {
+/// The texts of passes that together use every structure.
+fn texts() -> [String; 2] {
     let scene = include_str!("../../scenes/colliding_rings.toml");
     let method = Scene::parse(scene, "colliding_rings", None, &[]).unwrap().method;
-    compose(Pass::Kick, &Method { constraints: true, body_force: true, ..method })
+    let method = Method { constraints: true, body_force: true, body_options: true, ..method };
+    [Pass::Kick, Pass::BoundTimeStep].map(|pass| compose(pass, &method))
+}
+
+/// The first of them that has a structure.
+fn text_with(structure: &str) -> String {
+    let [kick, bound] = texts();
+    if offsets(&kick, structure).is_ok() { kick } else { bound }
 }
 
 /// Bytes of a structure as naga lays it out.
 fn span(structure: &str) -> u32 {
-    let module = naga::front::wgsl::parse_str(&text()).unwrap();
+    let module = naga::front::wgsl::parse_str(&text_with(structure)).unwrap();
     let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(structure));
     match found.map(|(_, ty)| &ty.inner) {
         Some(naga::TypeInner::Struct { span, .. }) => *span,
@@ -27,7 +34,7 @@ fn span(structure: &str) -> u32 {
 macro_rules! assert_mirrors {
     ($structure:ident: $($member:ident),* $(,)?) => {{
         let host = [$((stringify!($member).to_string(), offset_of!($structure<f32>, $member) as u32)),*];
-        assert_eq!(offsets(&text(), stringify!($structure)).unwrap(), host);
+        assert_eq!(offsets(&text_with(stringify!($structure)), stringify!($structure)).unwrap(), host);
         // A host structure with one more member than is named here does not compile.
         let $structure::<f32> { $($member: _),* } = $structure::default();
     }};
@@ -51,6 +58,12 @@ fn bodies_mirror_the_shader_s() {
         whole, pressure, strength, heat, density, bulk_modulus, shear_modulus, youngs_modulus, yield_stress, sound_speed,
         smoothing_length, padding, numbers);
     assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
+}
+
+#[test]
+fn options_of_bodies_mirror_the_shader_s() {
+    assert_mirrors!(BodyOptions: alpha, beta, artificial_epsilon, hourglass);
+    assert_eq!(size_of::<BodyOptions<f32>>(), span("BodyOptions") as usize);
 }
 
 #[test]

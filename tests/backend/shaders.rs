@@ -98,6 +98,7 @@ pub fn random_method(random: &mut Random) -> Method {
         shear: plastic || random.coin(),
         many_bodies,
         coupling: many_bodies && random.coin(),
+        body_options: many_bodies && random.coin(),
         constraints: random.coin(),
         symmetry,
         periodic: !symmetry && random.coin(),

@@ -16,7 +16,11 @@ use lithosph::tensor::{Plane, Space};
 
 /// A disc of rates and a bonded one `gap` apart that move towards each other, off the axis; with more lines.
 fn discs(gap: f64, time: &str, contact: &str) -> Scene {
-    parse(&format!(
+    parse(&text_of(gap, time, contact))
+}
+
+fn text_of(gap: f64, time: &str, contact: &str) -> String {
+    format!(
         r#"
 title = "discs"
 dimension = 2
@@ -57,7 +61,7 @@ viscosity = {{ alpha = 0.2 }}
 "#,
         -6.0 - gap,
         -6.0 - gap
-    ))
+    )
 }
 
 const BARRIER: &str =
@@ -87,7 +91,7 @@ fn each_group_has_the_fields_and_passes_that_it_has_alone() {
     let [flowing, bonded] = scene.groups() else { panic!("{} groups", scene.groups().len()) };
     assert_eq!((flowing.method.formulation, bonded.method.formulation), (Formulation::Eulerian, Formulation::TotalLagrangian));
     for (group, kept) in [(flowing, "flowing"), (bonded, "bonded")] {
-        let alone = Scene::parse(&alone(kept), "alone", None, &[]).unwrap();
+        let alone = alone(kept);
         assert_eq!(group.method, alone.method, "{kept}");
         assert_eq!(step::calls(&group.method), step::calls(&alone.method));
         assert_eq!(step::fields(&group.method), step::fields(&alone.method));
@@ -98,14 +102,13 @@ fn each_group_has_the_fields_and_passes_that_it_has_alone() {
 }
 
 /// The scene with one of its bodies.
-fn alone(body: &str) -> String {
-    let text = discs(0.5, "step = 0.1", "").file;
-    let mut file = text;
+fn alone(body: &str) -> Scene {
+    let mut file = discs(0.5, "", "").file;
     file.body.retain(|typed| typed.name == body);
     let formulation = file.body[0].formulation.take();
     file.formulation = formulation.map_or(file.formulation.clone(), |name| file.formulations[&name].clone());
     file.formulations.clear();
-    toml::to_string(&file).unwrap()
+    Scene::from_file(file, "alone").unwrap()
 }
 
 #[test]
@@ -140,7 +143,7 @@ fn all_groups_take_the_shortest_of_their_steps() {
 fn a_blow_between_formulations_keeps_momentum_with_every_integrator() {
     for contact in [BARRIER, COLOUR] {
         for integrator in ["leapfrog", "rk2", "ssp_rk3", "rk4"] {
-            let scene = discs(if contact == BARRIER { 1.5 } else { 4.0 }, &format!("integrator = \"{integrator}\""), contact);
+            let scene = discs(if contact == BARRIER { 0.5 } else { 4.0 }, &format!("integrator = \"{integrator}\""), contact);
             let mut cpu = cpu(&scene);
             let (before, size) = momentum(&cpu.members);
             steps(&mut cpu, 120);
@@ -160,7 +163,7 @@ fn a_blow_between_formulations_keeps_momentum_with_every_integrator() {
 fn contact_between_groups_is_that_within_one() {
     // `list_capacity` changes nothing but the place that lists take: it parts the bodies all the same.
     let apart = |own: &str| {
-        let scene = discs(1.5, "", BARRIER).file;
+        let scene = discs(0.5, "", BARRIER).file;
         let mut file = scene;
         let bonded = file.formulation.clone();
         file.formulations.get_mut("rates").unwrap().clone_from(&bonded);
@@ -189,7 +192,7 @@ fn contact_between_groups_is_that_within_one() {
 #[test]
 fn the_gpu_follows_f64_through_a_blow_between_formulations() {
     let Some(adapter) = adapter() else { return };
-    let scene = discs(1.5, "", BARRIER);
+    let scene = discs(0.5, "", BARRIER);
     let states: Vec<State<Plane<f32>>> = scene.members().map(|member| member.state(true)).collect();
     let (mut cpu, mut gpu) = (cpu(&scene), Gpu::of_members(&adapter, &states).unwrap());
     let clocks = (steps(&mut cpu, 100), steps(&mut gpu, 100));
@@ -205,8 +208,7 @@ fn the_gpu_follows_f64_through_a_blow_between_formulations() {
 
 #[test]
 fn observables_see_both_groups() {
-    let file = discs(30.0, "", "").file;
-    let mut text = toml::to_string(&file).unwrap().replace("[formulations.rates]", "[formulation.rates]");
+    let mut text = text_of(30.0, "", "");
     text += "[observe]\nkinetic = { kind = \"kinetic_energy\" }\nspeed = { kind = \"mean_velocity\", body = \"bonded\", axis = \"y\" }\n\
              volume = { kind = \"largest\", field = \"volumetric_strain\" }\n";
     let scene = Scene::parse(&text.replace("duration = 1000.0", "duration = 1.0"), "discs", None, &[]).unwrap();
@@ -220,7 +222,7 @@ fn observables_see_both_groups() {
 
 #[test]
 fn a_scene_of_formulations_that_cannot_be_is_refused() {
-    let text = toml::to_string(&discs(0.5, "", BARRIER).file).unwrap().replace("[formulations.rates]", "[formulation.rates]");
+    let text = text_of(0.5, "", BARRIER);
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from} is not in\n{text}");
         Scene::parse(&text.replacen(from, to, 1), "test", None, &[]).map(|_| ()).unwrap_err()
@@ -230,15 +232,15 @@ fn a_scene_of_formulations_that_cannot_be_is_refused() {
         ("formulation = \"rates\"\n", "", "no body names [formulation.rates]"),
         ("smoothing_length = 1.4", "smoothing_length = -1.4", "smoothing_length (in spacings) must be a positive number"),
         ("smoothing_length = 1.4", "smothing_length = 1.4", "unknown key `smothing_length`"),
-        ("[contact.potential]\nlaw = \"barrier\"\nstiffness = 0.5\nrange = 1.0", "kernel = 0.5", "kernel must be 0"),
+        ("potential = { law = \"barrier\", stiffness = 0.5, range = 1.0 }", "kernel = 0.5", "kernel must be 0"),
         (
-            "[contact.potential]\nlaw = \"barrier\"\nstiffness = 0.5\nrange = 1.0",
-            "[contact.gap]\nstiffness = 2",
+            "potential = { law = \"barrier\", stiffness = 0.5, range = 1.0 }",
+            "gap = { stiffness = 2, range = 2 }",
             "bodies of one formulation",
         ),
         (
-            "[contact.potential]\nlaw = \"barrier\"\nstiffness = 0.5\nrange = 1.0",
-            "[contact.zones]\nradius = 2\nstiffness = 1e-3",
+            "potential = { law = \"barrier\", stiffness = 0.5, range = 1.0 }",
+            "zones = { radius = 2, stiffness = 1e-3 }",
             "zones belong to bodies of one formulation",
         ),
         ("[time]", "[quasi_static]\nload_steps = 2\n[time]", "equilibrium is sought for bodies of one formulation"),

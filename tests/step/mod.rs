@@ -1,5 +1,6 @@
 //! What a method is made of, and what its steps give beside exact answers.
 
+mod body_options;
 mod corrected_kernel;
 mod elastic;
 pub mod eulerian;

@@ -3,7 +3,7 @@
 use super::connection::Connection;
 use crate::backend::device::DeviceInfo;
 use crate::fields::{Field, Type};
-use crate::rows::{Balance, Body, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
+use crate::rows::{Balance, Body, BodyOptions, Clock, Constraint, ContactPair, FacetPair, Mover, Obstacle, Params};
 use crate::state::State;
 use crate::step;
 use crate::tensor::Space;
@@ -19,7 +19,7 @@ macro_rules! plain {
         unsafe impl Pod for $name<f32> {}
     )* };
 }
-plain!(Params, Body, Constraint, ContactPair, FacetPair, Obstacle, Mover, Clock, Balance);
+plain!(Params, Body, BodyOptions, Constraint, ContactPair, FacetPair, Obstacle, Mover, Clock, Balance);
 
 /// Bytes of the smallest buffer: no shader's element is larger.
 const SMALLEST: u64 = 64;
@@ -226,6 +226,10 @@ fn contents<'a, S: Space<Real = f32>>(state: &'a State<S>, fields: &[Field]) -> 
     ];
     if !state.group_clocks.is_empty() {
         list.push(table("group_clocks", cast_slice(&state.group_clocks)));
+    }
+    // Bound only where bodies differ.
+    if !state.body_options.is_empty() {
+        list.push(table("body_options", cast_slice(&state.body_options)));
     }
     let counts = state.params.counts();
     list.extend(fields.iter().filter(|field| !field.in_parts()).map(|&field| Content {

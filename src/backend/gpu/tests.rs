@@ -52,6 +52,7 @@ fn state(side: usize) -> State<Plane<f32>> {
         clock: Clock::default(),
         group_clocks: Vec::new(),
         bodies: vec![body],
+        body_options: Vec::new(),
         coupling: vec![1.0],
         constraints: Vec::new(),
         course: Vec::new(),

@@ -69,7 +69,7 @@ fn reflection_tells_what_each_entry_point_uses() {
 fn methods() -> Vec<Method> {
     use crate::method::{ArtificialForm, Density, Gradient, Integrator};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 14] = [
+    let switches: [fn(&mut Method); 15] = [
         |_| (),
         |m| m.shear = true,
         |m| m.many_bodies = true,
@@ -84,6 +84,7 @@ fn methods() -> Vec<Method> {
         |m| (m.internal_energy, m.dissipated_energy) = (true, true),
         |m| (m.laws, m.shear, m.integrator) = (vec![Law::Elastic, Law::J2], true, Integrator::Leapfrog),
         |m| m.compensated = true,
+        |m| (m.many_bodies, m.body_options) = (true, true),
     ];
     let forms = [None, Some(ArtificialForm::Scalar), Some(ArtificialForm::Principal)];
     let mut list = Vec::new();
@@ -117,7 +118,7 @@ fn methods() -> Vec<Method> {
 fn lagrangian_methods(dimension: usize) -> Vec<Method> {
     use crate::method::{Density, Descent, Formulation, Gradient, Integrator};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 10] = [
+    let switches: [fn(&mut Method); 11] = [
         |_| (),
         |m| m.hourglass = true,
         |m| m.gradient = Gradient::Plain,
@@ -126,6 +127,7 @@ fn lagrangian_methods(dimension: usize) -> Vec<Method> {
         |m| m.symmetry = true,
         |m| m.periodic = true,
         |m| m.dissipated_energy = m.memory() && m.quasi_static.is_none(),
+        |m| (m.many_bodies, m.body_options) = (true, true),
         |m| m.quasi_static = Some(Descent::Fire),
         |m| m.quasi_static = Some(Descent::KineticDamping),
     ];
@@ -200,8 +202,19 @@ fn every_variant_of_every_pass_is_valid() {
 }
 
 /// What shaders bind beside the fields.
-const TABLES: &[&str] =
-    &["params", "clock", "balance", "bodies", "coupling", "constraints", "course", "contact_pairs", "source", "destination"];
+const TABLES: &[&str] = &[
+    "params",
+    "clock",
+    "balance",
+    "bodies",
+    "body_options",
+    "coupling",
+    "constraints",
+    "course",
+    "contact_pairs",
+    "source",
+    "destination",
+];
 
 #[test]
 fn every_file_of_the_library_is_listed() {

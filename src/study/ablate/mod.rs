@@ -58,7 +58,7 @@ impl Study {
     pub fn plan(request: &Request) -> Result<Self, String> {
         let source = Source::new(request.scene.clone(), request.variant.clone())?;
         let scene = source.open(&request.set)?;
-        scene.one_group("study ablate")?;
+        scene.one_formulation("study ablate")?;
         check::references(&scene, source.folder())?;
         let (expected, observed) = (measure::expected(&scene), measure::observed(&scene));
         if expected.is_empty() && (request.error.is_none() || observed.is_empty()) {

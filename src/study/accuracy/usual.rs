@@ -21,7 +21,11 @@ pub fn groups(scene: &Scene) -> Vec<Group> {
     groups.push(vec![others("formulation.smoothing_length", &[1.2, 1.3, 1.5, 1.8], Some(typed.smoothing_length))]);
     match typed.kind {
         Formulation::TotalLagrangian => {
-            groups.push(vec![others("formulation.hourglass", &[0.1, 0.2, 0.5], Some(file.hourglass()))]);
+            groups.push(vec![others(
+                "formulation.hourglass",
+                &[0.1, 0.2, 0.5],
+                Some(file.formulation.hourglass(file.body.iter().any(|body| file.yields(body)))),
+            )]);
             groups.push(words("formulation.gradient", &[if gradient == Gradient::Quadratic { "adjoint" } else { "quadratic" }]));
         }
         Formulation::Eulerian => {

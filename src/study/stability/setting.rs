@@ -70,7 +70,7 @@ impl Setting {
             Formulation::TotalLagrangian => {
                 let (deformation, damage) =
                     uniform(&typed, scene.dimension()).map_err(|why| format!("{}: {why}", scene.label()))?;
-                let (gradient, hourglass) = (f.gradient(), scene.file.hourglass());
+                let (gradient, hourglass) = (f.gradient(), scene.bodies[0].options.hourglass);
                 let elastic = Elastic { body: body.numbers(), gradient, hourglass, deformation, damage };
                 (Theory::Lagrangian(Box::new(Lagrangian::new(lattice, &elastic))), Some((deformation, damage)))
             }

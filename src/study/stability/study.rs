@@ -56,7 +56,7 @@ pub fn run(request: &Request) -> Result<String, Stop> {
     let source = Source::new(request.scene.clone(), request.variant.clone()).map_err(Stop::Refused)?;
     let open = |overrides: &[String]| source.open(&[&request.set[..], overrides].concat());
     let scene = open(&[]).map_err(Stop::Refused)?;
-    scene.one_group("study stability").map_err(Stop::Refused)?;
+    scene.one_formulation("study stability").map_err(Stop::Refused)?;
     if request.cells < 4 {
         return Err(Stop::Refused("--cells must be 4 or more".into()));
     }

@@ -2,6 +2,7 @@
 
 use crate::common::parse;
 use lithosph::material::{Law, Number, Role};
+use lithosph::rows::BodyOptions;
 use lithosph::scene::Scene;
 
 #[derive(Clone, Copy)]
@@ -21,6 +22,8 @@ pub struct Case {
     pub fluid: bool,
     /// Laws of the two materials, or none for the default.
     pub laws: [&'static str; 2],
+    /// Numbers of the second body's formulation, where they are not the scene's. The text of a scene cannot name them.
+    pub second: Option<BodyOptions<f64>>,
     pub compensated: bool,
     /// Between the two blocks, in spacings.
     pub gap: f64,
@@ -48,6 +51,7 @@ const BARE: Case = Case {
     boundary: false,
     fluid: false,
     laws: [""; 2],
+    second: None,
     compensated: false,
     gap: GAP,
     apart: false,
@@ -55,6 +59,9 @@ const BARE: Case = Case {
     formulation: "",
     time: "",
 };
+
+/// Far from the numbers of every case that has them.
+const OTHER: BodyOptions<f64> = BodyOptions { alpha: 1.1, beta: 3.0, artificial_epsilon: 0.9, hourglass: 0.25 };
 
 /// A wall that moves, and a ball that flies; with friction.
 const OBSTACLES: &str =
@@ -156,6 +163,44 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             planes: 1,
             laws: ["j2, power", "j2, linear"],
             formulation: "density = \"summation\"\ngradient = \"adjoint\"\nviscosity = { alpha = 0.5 }\ndissipated_energy = true",
+            ..BARE
+        },
+        Case {
+            name: "leapfrog, bodies that differ, planes, principal",
+            bodies: 2,
+            planes: dimension,
+            formulation: "viscosity = { alpha = 0.4, softening = 0.01 }\ninternal_energy = true
+                dissipated_energy = true\nartificial_stress = { epsilon = 0.3, exponent = 6 }",
+            second: Some(OTHER),
+            ..BARE
+        },
+        Case {
+            name: "rk2, bodies that differ, adjoint, scalar",
+            units: STEEL,
+            bodies: 2,
+            formulation: "smoothing = \"wendland\"\ngradient = \"adjoint\"\nviscosity = { alpha = 2.0, beta = 0.5 }
+                artificial_stress = { form = \"scalar\", epsilon = 0.2 }",
+            second: Some(OTHER),
+            time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, bodies that differ, j2 and neo-hookean, heat",
+            bodies: 2,
+            planes: 1,
+            laws: ["j2, linear", "neo_hookean"],
+            formulation: "kind = \"total_lagrangian\"\nviscosity = { alpha = 0.4 }\ndissipated_energy = true",
+            second: Some(OTHER),
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, rk2, bodies that differ, quadratic gradient",
+            units: STEEL,
+            bodies: 2,
+            laws: ["neo_hookean", "st_venant_kirchhoff"],
+            formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"\nviscosity = { alpha = 2.0, beta = 0.5 }",
+            second: Some(OTHER),
+            time: "integrator = \"rk2\"",
             ..BARE
         },
         Case {
@@ -599,6 +644,11 @@ impl Case {
     }
 
     pub fn scene(&self) -> Scene {
-        parse(&self.text())
+        let mut scene = parse(&self.text());
+        if let Some(options) = self.second {
+            scene.bodies[1].options = options;
+            scene.method.body_options = true;
+        }
+        scene
     }
 }

@@ -89,6 +89,7 @@ pub fn convert<A: Space, B: Space>(from: &State<A>) -> State<B> {
         clock: clock(&from.clock, real),
         group_clocks: from.group_clocks.iter().map(|group| clock(group, real)).collect(),
         bodies: from.bodies.iter().map(body).collect(),
+        body_options: from.body_options.iter().map(|options| options.map(real)).collect(),
         coupling: from.coupling.iter().map(|&x| real(x)).collect(),
         constraints: from.constraints.iter().map(constraint).collect(),
         course: from.course.iter().map(|point| point.map(real)).collect(),
