@@ -126,8 +126,8 @@ fn remembered<S: Space>(state: &State<S>, a: usize) -> Memory<S> {
     }
 }
 
-/// sum V_b (u_b - u_a) (x) grad_a W_ab
-#[inline(always)]
+/// sum V_b (u_b - u_a) (x) grad_a W_ab. Out of line, so that the loop over bonds has all registers to itself.
+#[inline(never)]
 pub(super) fn sum_bonds<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Mat {
     let mut sum = S::Mat::default();
     for part in B::parts(state, a) {

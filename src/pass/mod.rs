@@ -68,7 +68,8 @@ pub(crate) use write::{compensated_add, write};
 
 use crate::method::Method;
 use crate::state::State;
-use crate::tensor::Space;
+use crate::tensor::{Line, Plane, Solid, Space};
+use std::any::Any;
 
 /// A pass at its place in the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,14 +100,44 @@ macro_rules! passes {
                     $(Pass::$name => include_str!(concat!("../../shaders/pass/", stringify!($word), ".wgsl"))),*
                 }
             }
+        }
+
+        fn run_in<S: Space>(pass: Pass, state: &mut State<S>, stage: Stage) {
+            match pass { $(Pass::$name => $word::run(state, stage)),* }
+        }
+    };
+}
+
+/// Compiles the twins here, once for each space: a crate that calls them links to these instead of compiling its own.
+macro_rules! spaces {
+    ($($name:ident: $space:ty),* $(,)?) => {
+        $(fn $name(pass: Pass, state: &mut State<$space>, stage: Stage) {
+            run_in(pass, state, stage);
+        })*
+
+        impl Pass {
             /// Runs the twin, unless the pass rests.
             pub fn run<S: Space>(self, state: &mut State<S>, stage: Stage) {
-                if self.declaration().runs.now(&state.clock) {
-                    match self { $(Pass::$name => $word::run(state, stage)),* }
+                if !self.declaration().runs.now(&state.clock) {
+                    return;
                 }
+                let state: &mut dyn Any = state;
+                $(if let Some(state) = state.downcast_mut::<State<$space>>() {
+                    return $name(self, state, stage);
+                })*
+                unreachable!("there is no other space");
             }
         }
     };
+}
+
+spaces! {
+    line_single: Line<f32>,
+    line_double: Line<f64>,
+    plane_single: Plane<f32>,
+    plane_double: Plane<f64>,
+    solid_single: Solid<f32>,
+    solid_double: Solid<f64>,
 }
 
 passes! {

@@ -12,13 +12,13 @@ fn texts() -> [String; 2] {
     let scene = include_str!("../../scenes/colliding_rings.toml");
     let method = Scene::parse(scene, "colliding_rings", None, &[]).unwrap().method;
     let method = Method { constraints: true, body_force: true, body_options: true, ..method };
-    [Pass::Kick, Pass::BoundTimeStep].map(|pass| compose(pass, &method))
+    [Pass::Kick, Pass::Force].map(|pass| compose(pass, &method))
 }
 
 /// The first of them that has a structure.
 fn text_with(structure: &str) -> String {
-    let [kick, bound] = texts();
-    if offsets(&kick, structure).is_ok() { kick } else { bound }
+    let [kick, force] = texts();
+    if offsets(&kick, structure).is_ok() { kick } else { force }
 }
 
 /// Bytes of a structure as naga lays it out.

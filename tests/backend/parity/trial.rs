@@ -115,7 +115,7 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
 
         // In one block, acceleration bounds the step.
         let mut pulled = calm.clone();
-        let hard = 10.0 * pulled.bodies[0].sound_speed.powi(2) / pulled.bodies[0].smoothing_length;
+        let hard = 40.0 * pulled.bodies[0].sound_speed.powi(2) / pulled.bodies[0].smoothing_length;
         pulled.columns.acceleration[300..310].iter_mut().for_each(|a| a[0] += hard);
         self.run_end(pulled);
         let fixed = calm.params.fixed_step > 0.0;
