@@ -14,10 +14,15 @@ const LONG: [&str; 6] = ["--set", "duration=40", "--set", "output.series=0.5", "
 /// Every dataset of a checkpoint, bit for bit.
 fn checkpoint(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let file = hdf5::File::open(folder.join("checkpoint.h5")).unwrap();
-    let group = file.group("fields").unwrap();
-    let names = group.member_names().unwrap();
-    let mut all: BTreeMap<String, Vec<u8>> =
-        names.into_iter().map(|name| (name.clone(), group.dataset(&name).unwrap().read_raw().unwrap())).collect();
+    let mut all = BTreeMap::new();
+    // A group of particles each.
+    for place in file.member_names().unwrap().into_iter().filter(|name| name.starts_with("fields")) {
+        let group = file.group(&place).unwrap();
+        for name in group.member_names().unwrap() {
+            let column: Vec<u8> = group.dataset(&name).unwrap().read_raw().unwrap();
+            all.insert(if place == "fields" { name } else { format!("{place}.{name}") }, column);
+        }
+    }
     assert!(all.contains_key("displacement") && all.contains_key("velocity"), "{:?}", all.keys());
     let progress: Vec<f64> = file.dataset("progress").unwrap().read_raw().unwrap();
     all.insert("progress".into(), progress.iter().flat_map(|number| number.to_le_bytes()).collect());
@@ -205,25 +210,49 @@ total = { kind = "total_energy" }
 drag = { kind = "obstacle_force", obstacle = "floor", axis = "x" }
 "#;
 
-#[test]
-fn friction_goes_on_with_what_its_springs_hold() {
-    let sandbox = Sandbox::new("resume-friction");
-    sandbox.write("rubbing.toml", RUBBING);
-    let place = ["--backend", "cpu"];
-    good(&sandbox.lithosph(&[&["run", "rubbing.toml", "--out", "whole"], &place[..]].concat()));
+/// Kills a run of a scene after some frames and lets it go on; gives the checkpoint, which is that of an unbroken run.
+fn killed_once(name: &str, scene: &str, place: &[&str]) -> BTreeMap<String, Vec<u8>> {
+    let sandbox = Sandbox::new(name);
+    sandbox.write("scene.toml", scene);
+    good(&sandbox.lithosph(&[&["run", "scene.toml", "--out", "whole"], place].concat()));
     let (whole, parts) = (sandbox.path("whole"), sandbox.path("parts"));
-    let mut child = sandbox.command(&[&["run", "rubbing.toml", "--out", "parts"], &place[..]].concat()).spawn().unwrap();
+    let mut child = sandbox.command(&[&["run", "scene.toml", "--out", "parts"], place].concat()).spawn().unwrap();
     until("there are frames", || frames(&parts) >= 10 && parts.join("checkpoint.h5").exists());
     signal(&child, libc::SIGKILL);
     assert!(!child.wait().unwrap().success());
     assert!(!parts.join("summary.json").exists(), "the run was over before it was killed");
-    good(&sandbox.lithosph(&[&["run", "--resume", "parts"], &place[..]].concat()));
+    good(&sandbox.lithosph(&[&["run", "--resume", "parts"], place].concat()));
     let (ours, theirs) = (checkpoint(&whole), checkpoint(&parts));
     assert!(ours.keys().eq(theirs.keys()));
-    for name in ["facet_slip", "facet_obstacle_slip"] {
-        assert!(ours[name].iter().any(|&byte| byte != 0), "nothing rubs: {name}");
-    }
     ours.iter().for_each(|(name, column)| assert!(*column == theirs[name], "the checkpoint's {name} differs"));
     let rows = |folder: &Path| std::fs::read(folder.join("series.csv")).unwrap();
     assert!(rows(&whole) == rows(&parts), "series.csv differs");
+    ours
+}
+
+#[test]
+fn friction_goes_on_with_what_its_springs_hold() {
+    let kept = killed_once("resume-friction", RUBBING, &["--backend", "cpu"]);
+    for name in ["facet_slip", "facet_obstacle_slip"] {
+        assert!(kept[name].iter().any(|&byte| byte != 0), "nothing rubs: {name}");
+    }
+}
+
+/// Two discs, each of a formulation of its own, in touch when the run is killed.
+fn groups_go_on(name: &str, place: &[&str]) {
+    let scene = include_str!("../../scenes/mixed_discs.toml").replace("frames = 10", "frames = 2");
+    let kept = killed_once(name, &scene, place);
+    assert!(kept.contains_key("volumetric_strain") && kept.contains_key("fields_1.displacement_gradient"), "{:?}", kept.keys());
+}
+
+#[test]
+fn groups_go_on_to_the_same_bits_on_the_processor() {
+    groups_go_on("resume-groups-cpu", &["--backend", "cpu"]);
+}
+
+#[test]
+fn groups_go_on_to_the_same_bits_on_a_graphics_adapter() {
+    if adapter().is_some() {
+        groups_go_on("resume-groups-gpu", &["--backend", "gpu"]);
+    }
 }
