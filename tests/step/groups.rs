@@ -146,7 +146,7 @@ fn a_blow_between_formulations_keeps_momentum_with_every_integrator() {
             let scene = discs(if contact == BARRIER { 0.5 } else { 2.0 }, &format!("integrator = \"{integrator}\""), contact);
             let mut cpu = cpu(&scene);
             let (before, size) = momentum(&cpu.members);
-            steps(&mut cpu, 120);
+            steps(&mut cpu, if contact == BARRIER { 120 } else { 400 });
             let (after, _) = momentum(&cpu.members);
             let own = |k: usize| momentum(&cpu.members[k..=k]).0[0];
             let masses: Vec<f64> = (0..2).map(|k| scene.parts[k].particles.iter().map(|p| p.volume).sum::<f64>()).collect();
