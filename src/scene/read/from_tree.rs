@@ -1,16 +1,17 @@
 //! From the tree to [`File`]: serde asks, the tree answers, and an error learns its place on the way out.
 //! No table is typed as a list, no list has more than is asked for, and no word has a table.
 
-use super::super::file::File;
+use super::super::file::{File, FormulationTable};
 use super::super::words::{Fault, nearest, sentence};
 use super::tree::{Entry, Node, Place, Value, show};
+use serde::Deserialize;
 use serde::de::value::{BorrowedStrDeserializer, MapAccessDeserializer, MapDeserializer};
-use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, Expected, MapAccess, SeqAccess, Visitor};
+use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error, Expected, MapAccess, SeqAccess, Visitor};
 use std::collections::{BTreeMap, btree_map};
 use std::iter::Enumerate;
 use std::{fmt, slice};
 
-/// Tables that `[formulation]` has as its own; any other table in it is a named formulation.
+/// Keys of `[formulation]` whose value is a table.
 const OWN_TABLES: [&str; 2] = ["viscosity", "artificial_stress"];
 /// Key under which [`File`] has the named formulations.
 const FORMULATIONS: &str = "formulations";
@@ -25,15 +26,15 @@ pub(super) fn deserialize(root: &Node, name: &str) -> Result<File, String> {
     File::deserialize(root).map_err(|wrong| wrong.complaint(root, name))
 }
 
-/// The scene with its named formulations beside the plain one, where serde finds them by their type. A table whose name is
-/// nearly that of an own one is left to be refused as a slip.
+/// The scene with its named formulations beside the plain one, where serde finds them by their type. A table under a key
+/// of the formulation itself, or nearly under one that is a table, is left to be refused as a slip.
 fn formulations_apart(root: &Node) -> Node {
     let mut root = root.clone();
     let Value::Table(tables) = &mut root.value else { return root };
     let Some(Entry { place, node: Node { value: Value::Table(keys), .. } }) = tables.get_mut("formulation") else { return root };
     let named = |key: &str, entry: &Entry| {
         let table = matches!(entry.node.value, Value::Table(_));
-        table && !OWN_TABLES.contains(&key) && nearest(key, OWN_TABLES.into_iter()).is_none()
+        table && !knows::<FormulationTable>(key) && nearest(key, OWN_TABLES).is_none()
     };
     let (apart, own) = std::mem::take(keys).into_iter().partition::<BTreeMap<_, _>, _>(|(key, entry)| named(key, entry));
     *keys = own;
@@ -45,12 +46,12 @@ fn formulations_apart(root: &Node) -> Node {
     root
 }
 
-/// Whether a key is one of the scene itself: serde knows it there.
-fn is_top(key: &str) -> bool {
-    let node = Node { place: Place::Line(1), value: Value::Text(String::new()) };
-    let entry = Entry { place: Place::Line(1), node };
-    let scene = Node { place: Place::Line(1), value: Value::Table(BTreeMap::from([(key.to_string(), entry)])) };
-    File::deserialize(&scene).is_err_and(|wrong| !wrong.message.starts_with("unknown field"))
+/// Whether a table that is read as this type may have the key.
+fn knows<T: DeserializeOwned>(key: &str) -> bool {
+    let place = Place::Line(1);
+    let entry = Entry { place: place.clone(), node: Node { place: place.clone(), value: Value::List(Vec::new()) } };
+    let table = Node { place, value: Value::Table(BTreeMap::from([(key.to_string(), entry)])) };
+    !T::deserialize(&table).is_err_and(|wrong| wrong.message.starts_with("unknown field"))
 }
 
 /// What serde found wrong.
@@ -88,7 +89,7 @@ impl<'a> Wrong<'a> {
         self.path.reverse();
         let (place, node) = self.site.unwrap_or((&root.place, root));
         let word = if let Value::Text(word) = &node.value { Some(word.as_str()) } else { None };
-        let top = self.path.last().is_some_and(|key| is_top(key));
+        let top = self.path.last().is_some_and(|key| knows::<File>(key));
         let fault = Fault { message: &self.message, path: &self.path, found: node.describe(), word, keys: node.keys(), top };
         format!("{}: {}", show(name, place), sentence(&fault))
     }
