@@ -109,6 +109,19 @@ impl Error for Wrong<'_> {
     }
 }
 
+impl Node {
+    /// A list of tables is told by the line of its first key.
+    fn first(&self) -> &Place {
+        if let Value::List(items) = &self.value
+            && let Some(Value::Table(entries)) = items.first().map(|item| &item.value)
+            && let Some(entry) = entries.values().next()
+        {
+            return &entry.place;
+        }
+        &self.place
+    }
+}
+
 type Words = &'static [&'static str];
 
 /// Types ask by the method of their own kind, so that none is compiled with the code of all kinds.
@@ -135,7 +148,7 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Wrong<'de>> {
         let read = match &self.value {
             Value::Table(entries) => visitor.visit_map(Entries { rest: entries.iter(), last: None }),
-            _ => Err(Wrong::not(&visitor)),
+            _ => Err(Wrong::not(&visitor).at(self.first(), self)),
         };
         read.map_err(|wrong| wrong.at(&self.place, self))
     }
