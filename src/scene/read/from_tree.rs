@@ -6,7 +6,7 @@ use super::super::words::{Fault, nearest, sentence};
 use super::tree::{Entry, Node, Place, Value, show};
 use serde::Deserialize;
 use serde::de::value::{BorrowedStrDeserializer, MapAccessDeserializer, MapDeserializer};
-use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error, Expected, MapAccess, SeqAccess, Visitor};
+use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::collections::{BTreeMap, btree_map};
 use std::iter::Enumerate;
 use std::{fmt, slice};
@@ -65,14 +65,6 @@ pub(super) struct Wrong<'a> {
 }
 
 impl<'a> Wrong<'a> {
-    fn not(expected: &dyn Expected) -> Self {
-        Self::custom(format_args!("invalid type, expected {expected}"))
-    }
-
-    fn too_long(found: usize, length: usize) -> Self {
-        Self::custom(format_args!("invalid length {found}, expected an array of length {length}"))
-    }
-
     /// This value is at fault, unless one inside it is.
     fn at(mut self, place: &'a Place, node: &'a Node) -> Self {
         self.site.get_or_insert((place, node));
@@ -148,7 +140,7 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Wrong<'de>> {
         let read = match &self.value {
             Value::Table(entries) => visitor.visit_map(Entries { rest: entries.iter(), last: None }),
-            _ => Err(Wrong::not(&visitor).at(self.first(), self)),
+            _ => Err(Wrong::invalid_type(Unexpected::Other("value"), &visitor).at(self.first(), self)),
         };
         read.map_err(|wrong| wrong.at(&self.place, self))
     }
@@ -160,7 +152,7 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Wrong<'de>> {
         let read = match &self.value {
             Value::List(items) => visitor.visit_seq(Items(items.iter().enumerate())),
-            _ => Err(Wrong::not(&visitor)),
+            _ => Err(Wrong::invalid_type(Unexpected::Other("value"), &visitor)),
         };
         read.map_err(|wrong| wrong.at(&self.place, self))
     }
@@ -169,7 +161,9 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Wrong<'de>> {
         let read = self.deserialize_seq(visitor)?;
         match &self.value {
-            Value::List(items) if items.len() > length => Err(Wrong::too_long(items.len(), length).at(&self.place, self)),
+            Value::List(items) if items.len() > length => {
+                Err(Wrong::invalid_length(items.len(), &format!("an array of length {length}").as_str()).at(&self.place, self))
+            }
             _ => Ok(read),
         }
     }
