@@ -6,10 +6,10 @@ use crate::contact;
 use crate::contact::zones;
 use crate::material::{Law, Role};
 use crate::smoothing::Smoothing;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// In which configuration the sums run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Formulation {
     /// Neighbours and kernels where the particles are now; stress from rates.
@@ -32,7 +32,7 @@ impl Formulation {
     }
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Density {
     /// From the divergence of the velocity, Fuller (2.21).
@@ -42,7 +42,7 @@ pub enum Density {
     Summation,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Gradient {
     /// Bare kernel gradient.
@@ -56,7 +56,7 @@ pub enum Gradient {
     Quadratic,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ArtificialForm {
     /// epsilon |P|/rho^2 where the pressure is tensile.
@@ -66,7 +66,7 @@ pub enum ArtificialForm {
     Principal,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
     /// Kick-drift-kick: one force a step, second order, symplectic for elastic bodies.
@@ -81,8 +81,21 @@ pub enum Integrator {
     Pefrl,
 }
 
+impl Integrator {
+    /// Word in a scene.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Leapfrog => "leapfrog",
+            Self::Rk2 => "rk2",
+            Self::SspRk3 => "ssp_rk3",
+            Self::Rk4 => "rk4",
+            Self::Pefrl => "pefrl",
+        }
+    }
+}
+
 /// How equilibrium is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Descent {
     /// Fast inertial relaxation engine: Bitzek et al. 2006.
@@ -93,7 +106,7 @@ pub enum Descent {
 }
 
 /// Which terms of the force between facets act.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GapForm {
     /// All terms, together the derivative of an energy, so that energy and both momenta are kept.
@@ -104,7 +117,7 @@ pub enum GapForm {
 }
 
 /// Where kernel sums run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Configuration {
     #[default]
@@ -113,7 +126,7 @@ pub enum Configuration {
 }
 
 /// How the deformation gradient is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Deformation {
     /// From displacements, (8).
@@ -123,7 +136,7 @@ pub enum Deformation {
 }
 
 /// Which velocities the velocity gradient (6) sums.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VelocityGradient {
     /// v_b - v_a

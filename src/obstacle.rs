@@ -9,12 +9,12 @@
 use crate::rows::Obstacle;
 use crate::tensor::{Real, Space};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 macro_rules! kinds {
     ($($(#[$attribute:meta])* $word:ident: $name:ident, $about:literal;)*) => {
         /// Names the shapes. Their numbers are those of the shader.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
         #[serde(rename_all = "snake_case")]
         #[repr(u32)]
         pub enum ObstacleKind { $($(#[$attribute])* $name),* }

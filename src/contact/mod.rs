@@ -14,12 +14,12 @@ pub mod repulsive;
 pub mod zones;
 
 use crate::tensor::Real;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 macro_rules! potentials {
     ($($word:ident: $name:ident, $about:literal;)*) => {
         /// Names the pair potentials.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
         #[serde(rename_all = "snake_case")]
         pub enum Potential { $($name),* }
 

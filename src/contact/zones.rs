@@ -19,10 +19,10 @@
 //! asserts both.
 
 use crate::tensor::Real;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Which (4.2) pushes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
     Printed,
@@ -31,7 +31,7 @@ pub enum Form {
 }
 
 /// Which neighbours the normals are made of.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Normals {
     All,

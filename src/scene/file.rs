@@ -12,11 +12,11 @@ use crate::contact::zones::{Form, Normals};
 use crate::method::{ArtificialForm, Density, Descent, Formulation, Gradient, Integrator};
 use crate::method::{Configuration, Deformation, GapForm, VelocityGradient};
 use crate::smoothing::Smoothing;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// The whole file.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct File {
     /// One line that says what happens.
@@ -94,7 +94,7 @@ impl File {
     }
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 pub enum Units {
     #[default]
     #[serde(rename = "SI")]
@@ -105,7 +105,7 @@ pub enum Units {
     Dimensionless,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyTable {
     pub name: String,
@@ -141,7 +141,7 @@ pub struct BodyTable {
 }
 
 /// `count` bodies along each axis, `apart` from each other, about the place of the one that is typed.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copies {
     pub count: Vec<u32>,
@@ -150,7 +150,7 @@ pub struct Copies {
 }
 
 /// A velocity field that varies over a body.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Motion {
     /// v = gradient x, rows of the matrix.
@@ -163,7 +163,7 @@ pub enum Motion {
     Twist(Twist),
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wave {
     pub amplitude: Coordinates,
@@ -174,7 +174,7 @@ pub struct Wave {
 
 /// v = tip f(s)/f(1), f the first clamped-free mode, s the distance from the root along the axis over the length, 0
 /// behind it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cantilever {
     pub root: Coordinates,
@@ -185,7 +185,7 @@ pub struct Cantilever {
 }
 
 /// v = rate sin(pi s/2) axis x (x - root), s the distance from the root along the axis over the length, 0 behind it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Twist {
     pub root: Coordinates,
@@ -196,14 +196,14 @@ pub struct Twist {
 }
 
 /// Extra velocity for the one particle nearest to a point.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kick {
     pub at: Coordinates,
     pub velocity: Coordinates,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulationTable {
     pub kind: Formulation,
@@ -290,7 +290,7 @@ impl FormulationTable {
     }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Viscosity {
     pub alpha: f64,
@@ -301,7 +301,7 @@ pub struct Viscosity {
     pub softening: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArtificialStress {
     #[serde(default)]
@@ -318,7 +318,7 @@ fn default_exponent() -> u32 {
     4
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ArtificialSpacing {
     /// The particle spacing.
@@ -331,7 +331,7 @@ pub enum ArtificialSpacing {
 }
 
 /// What acts between two bodies.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactTable {
     pub between: [String; 2],
@@ -355,7 +355,7 @@ impl ContactTable {
 }
 
 /// U = (k/2) sum V_a <c_a - c0>^2: see `src/contact/colour_field.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColourField {
     /// k over the lowest Young's modulus of the scene.
@@ -367,7 +367,7 @@ pub struct ColourField {
 }
 
 /// Fuller's particle-to-surface contact: see `src/contact/zones.rs`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Zones {
     /// R, half the side of a zone, in spacings.
@@ -403,7 +403,7 @@ fn default_corner() -> f64 {
 }
 
 /// Energy of facets that are in another body's surface: see `src/facet.rs`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceGap {
     #[serde(default)]
@@ -428,7 +428,7 @@ fn default_range() -> f64 {
 }
 
 /// What an obstacle fills; `axis` points from the apex into the obstacle.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ObstacleShape {
     /// The half space behind a plane with an outward normal.
@@ -450,7 +450,7 @@ pub enum ObstacleShape {
 }
 
 /// A rigid surface that bodies cannot enter.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleTable {
     pub name: String,
@@ -472,7 +472,7 @@ pub struct ObstacleTable {
 }
 
 /// U = strength phi(r/range) for each pair of particles.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PairPotential {
     pub law: Potential,
@@ -484,7 +484,7 @@ pub struct PairPotential {
     pub exponent: Option<u32>,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Boundary {
     pub name: Option<String>,
@@ -499,28 +499,28 @@ pub struct Boundary {
     pub course: Option<Vec<[f64; 2]>>,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub enum Fixed {
     All(bool),
     Axes(Vec<bool>),
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub enum Axis {
     Value(f64),
     Word(FreeWord),
 }
 
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FreeWord {
     Free,
 }
 
 /// Particles of a body, inside a shape, or both.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Select {
     pub body: Option<String>,
@@ -528,7 +528,7 @@ pub struct Select {
 }
 
 /// A plane that the material cannot cross and along which it slips: its mirror image acts beyond it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Symmetry {
     pub point: Coordinates,
@@ -536,7 +536,7 @@ pub struct Symmetry {
     pub normal: Coordinates,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Time {
     pub integrator: Integrator,
@@ -555,7 +555,7 @@ impl Default for Time {
 /// The scene's duration is pseudo-time. Prescribed velocities, integrated over a load step, move what they hold at
 /// its start; forces and body force have their value at its end, and grow linearly from 0 over the duration
 /// where no course says otherwise.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct QuasiStatic {
     #[serde(default)]
@@ -577,7 +577,7 @@ fn default_most_steps() -> u32 {
     100_000
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
     /// Time between rows of the series; a hundredth of the duration unless given.
@@ -595,7 +595,7 @@ impl Default for Output {
     }
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
     pub field: String,
@@ -615,7 +615,7 @@ impl Default for Picture {
 }
 
 /// A number followed through time, or found from such a series. `kind` is a word of `lithosph list`.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Observe {
     pub kind: String,
@@ -656,7 +656,7 @@ pub struct Observe {
 }
 
 /// What must come out.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Expect {
     pub value: Option<f64>,
@@ -678,7 +678,7 @@ pub struct Expect {
     pub variant: Option<String>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Norm {
     Max,
@@ -687,7 +687,7 @@ pub enum Norm {
     Phase,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Statistic {
     Final,
@@ -700,7 +700,7 @@ pub enum Statistic {
 }
 
 /// What the studies of `lithosph study` vary.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Study {
     /// Under `[study.accuracy]` one group, or one under each `[[study.accuracy]]`.
@@ -710,7 +710,7 @@ pub struct Study {
 }
 
 /// A body of finite strain starts a run unstressed; its stability is asked for in a state of its own.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Stability {
     /// Rows of the deformation gradient; the unit tensor unless given.

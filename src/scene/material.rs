@@ -7,8 +7,7 @@ use crate::material::{self, Law, NUMBERS, Number, Point, Reads, Role};
 use crate::method::Formulation;
 use crate::rows::Body;
 use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::LazyLock;
@@ -30,7 +29,7 @@ pub struct RoleTable {
 }
 
 /// The stress that hardening adds to the yield stress of `j2` at the equivalent plastic strain k.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Hardening {
     /// A modulus (stress), times k.
@@ -130,23 +129,6 @@ impl<'de> Deserialize<'de> for MaterialTable {
             }
         }
         deserializer.deserialize_struct("MaterialTable", *KEYS, Table)
-    }
-}
-
-/// As it may be typed, but for the parts of `hardening`: what was read is compared with what was typed.
-impl Serialize for MaterialTable {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (key, value) in &self.numbers {
-            map.serialize_entry(key, value)?;
-        }
-        if let Some(word) = &self.law {
-            map.serialize_entry(Role::Whole.word(), word)?;
-        }
-        for (role, table) in &self.roles {
-            map.serialize_entry(role, &BTreeMap::from([(&table.law, &table.numbers)]))?;
-        }
-        map.end()
     }
 }
 

@@ -7,14 +7,14 @@ use super::clip;
 use super::shape::{Shape, used};
 use glam::DVec3;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// Most points that a body may have: beyond it their indices and byte offsets outgrow 32 bits.
 pub const MOST_POINTS: usize = (u32::MAX / 8) as usize;
 
 /// How particles are laid out in a shape.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Packing {
     /// Points `spacing` apart along each axis.

@@ -5,14 +5,14 @@
 //! two touching bodies from sharing a particle.
 
 use glam::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Distance to the surface, relative to the largest coordinate of the shape, below which a point
 /// counts as on it: a lattice point that rounding moved must not become an inner point.
 const SURFACE: f64 = 1e-10;
 
 /// A point of a scene as typed: 1 to 3 numbers (m); those left out are 0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]
 pub struct Coordinates(pub Vec<f64>);
 
@@ -41,7 +41,7 @@ fn default_axis() -> Coordinates {
 
 /// A solid, lengths in m. `center` is the middle of a shape, also along its axis; `axis` is a
 /// direction of any length, z where the scene gives none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
     /// An interval, rectangle or cuboid along the axes.
@@ -227,8 +227,9 @@ mod tests {
         assert_eq!(plate.check(2), Ok(()));
         assert!(!plate.contains(DVec3::ZERO, 2));
         assert!(plate.contains(DVec3::new(11.0, 0.0, 7.0), 2));
-        let body = toml::to_string(&std::collections::BTreeMap::from([("shape", &plate)])).unwrap();
-        assert_eq!(parse(&body).unwrap(), plate);
+        let tables = "[shape.cut.from.block]\nmin = [-40, -40]\nmax = [40, 40]\n\n\
+                      [[shape.cut.remove]]\ndisc = { center = [0, 0], radius = 10 }\n";
+        assert_eq!(parse(tables).unwrap(), plate);
     }
 
     #[test]

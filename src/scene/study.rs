@@ -2,7 +2,7 @@
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -10,8 +10,7 @@ use std::fmt;
 pub type Group = BTreeMap<String, Vec<toml::Value>>;
 
 /// Groups whose settings stand in one study, each the product of its own axes.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone)]
 pub enum Groups {
     One([Group; 1]),
     Many(Vec<Group>),

@@ -1,8 +1,6 @@
 //! Complaints about a scene in plain words: serde names Rust types and TOML byte ranges, this names the
 //! scene's own keys and what belongs there.
 
-use super::file::File;
-
 /// What serde found wrong, with the part of the scene that it concerns.
 pub(super) struct Fault<'a> {
     /// serde's own words.
@@ -15,6 +13,8 @@ pub(super) struct Fault<'a> {
     pub word: Option<&'a str>,
     /// The keys of the value at fault where it is a table.
     pub keys: Vec<&'a str>,
+    /// Whether the last key of the path is one of the scene itself.
+    pub top: bool,
 }
 
 /// Keys whose value is a table of exactly one key, which says what kind of thing it holds.
@@ -34,22 +34,6 @@ const SHAPE: &str = "a table such as `{ disc = { center = [0, 0], radius = 1 } }
 const UNTAGGED: [(&str, &str); 2] = [
     ("fixed", "true, false or a list of them, one for each axis"),
     ("velocity", "a list of numbers and \"free\", one for each axis"),
-];
-
-/// Tables that someone may take for lists of tables.
-const TABLES: [&str; 12] = [
-    "quasi_static",
-    "formulation",
-    "potential",
-    "colour_field",
-    "zones",
-    "viscosity",
-    "artificial_stress",
-    "time",
-    "output",
-    "picture",
-    "select",
-    "study",
 ];
 
 /// What belongs under `[study.accuracy]`; a path without its quotes makes a table.
@@ -82,14 +66,11 @@ pub(super) fn is_choice(key: &str) -> bool {
 pub(super) fn sentence(fault: &Fault) -> String {
     let message = fault.message;
     let path = quoted(fault.path);
-    if let Some(index) = fault.path.windows(2).position(|pair| TABLES.contains(&pair[0].as_str()) && is_index(&pair[1])) {
-        return format!("{} must be a table, found a list", quoted(&fault.path[..=index]));
-    }
     // toml hands a date to a struct as a table of one key of its own.
     if message.contains("$__toml_private") {
         return format!("{path} must be a table, found {}", fault.found);
     }
-    if message.starts_with("unknown field") || message.starts_with("unexpected keys") {
+    if message.starts_with("unknown field") {
         return unknown_key(fault);
     }
     if message.starts_with("unknown variant") {
@@ -103,13 +84,13 @@ pub(super) fn sentence(fault: &Fault) -> String {
         let found = if fault.keys.is_empty() { "none".to_string() } else { list(&fault.keys, "and") };
         return format!("{path} must have exactly one key, found {found}");
     }
-    if message.ends_with("overflowed") || message.contains(" as i128") || message.contains(" as u128") {
+    if message.ends_with("overflowed") {
         return format!("{path} is too large a number");
     }
-    if let (true, Some((_, word))) =
-        (message.starts_with("expected empty table") || message.starts_with("expected table,"), fault.path.split_last())
-    {
-        return format!("{} must be a word, found a table", quoted(word));
+    // A word that holds nothing was typed as a key with a value.
+    if let (true, Some((_, path))) = (message.ends_with(", expected unit"), fault.path.split_last()) {
+        let wanted = wanted("wanted string or table", path).unwrap_or_default();
+        return format!("{} must be {wanted}, found a table", quoted(path));
     }
     match wanted(message, fault.path) {
         // One of the elements does not fit, and serde does not say which.
@@ -172,11 +153,8 @@ fn unknown_key(fault: &Fault) -> String {
     let Some((key, table)) = fault.path.split_last() else {
         return one_line(fault.message);
     };
-    let valid: Vec<&str> = match fault.message.split_once(", available keys: ") {
-        Some((_, keys)) => keys.split(", ").collect(),
-        None => expected_words(fault.message, key),
-    };
-    if !table.is_empty() && top_keys().contains(key) {
+    let valid = expected_words(fault.message, key);
+    if !table.is_empty() && fault.top {
         return format!("unknown key `{key}` in {}, it belongs at the top of the scene, before all tables", quoted(table));
     }
     let inside = match nearest(key, valid.iter().copied()) {
@@ -184,13 +162,6 @@ fn unknown_key(fault: &Fault) -> String {
         _ => String::new(),
     };
     format!("unknown key `{}`{inside}{}", one_line(key), hint(key, &valid))
-}
-
-/// The keys of the scene itself, from what serde says to one that cannot be.
-fn top_keys() -> Vec<String> {
-    let error = toml::from_str::<File>("\"\" = 0").err();
-    let message = error.as_ref().map_or("", toml::de::Error::message);
-    expected_words(message, "").into_iter().map(str::to_string).collect()
 }
 
 /// The word is a string, or the one key of a table that says what it holds.

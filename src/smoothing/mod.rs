@@ -16,12 +16,12 @@ pub use quadratic::Quadratic;
 pub use wendland::Wendland;
 
 use crate::tensor::Real;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 macro_rules! kernels {
     ($($word:ident: $name:ident, $about:literal;)*) => {
         /// The kernels by the word that a scene uses.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
         #[serde(rename_all = "snake_case")]
         pub enum Smoothing { $($name),* }
 

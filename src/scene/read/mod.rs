@@ -2,21 +2,22 @@
 //! overridden.
 //!
 //! Every error is one sentence that begins with the place of the mistake. For that each value carries the
-//! line that it was typed on; while serde reads the tree, the byte ranges that it reports are numbers of
-//! the values and keys instead.
+//! line that it was typed on.
 
 mod change;
+mod from_tree;
 mod tree;
 
 use super::file::File;
 pub use super::words::{hint, nearest};
 use super::words::{list, one_line};
 use change::{NAMED, Removal, apply, assign, merge};
+use from_tree::deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 use toml::de::DeTable;
-use tree::{Entry, NONE, Node, Place, Value, deserialize, entries, position, show};
+use tree::{Entry, NONE, Node, Place, Value, entries, position, show};
 
 /// A scene as read.
 #[derive(Debug, Clone)]

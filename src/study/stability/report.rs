@@ -35,10 +35,10 @@ pub fn limit_rows(paths: &[String], found: &[Found]) -> Vec<Vec<String>> {
         let (limits, secular) = one.limits.as_ref().map_or((&[][..], None), |(limits, secular)| (&limits[..], Some(secular)));
         let limit = |limit: &super::Limit| {
             let numbers = [limit.formula, limit.computed, limit.measured, limit.ratio()];
-            std::iter::once(word(limit.integrator)).chain(numbers.map(digits)).collect()
+            std::iter::once(limit.integrator.word().to_string()).chain(numbers.map(digits)).collect()
         };
         let growth = secular.map(|s| {
-            let name = format!("{}: growth a step", word(s.integrator));
+            let name = format!("{}: growth a step", s.integrator.word());
             let numbers = [s.omega_step, s.computed, s.measured, s.measured / s.computed];
             std::iter::once(name).chain(numbers.map(digits)).collect()
         });
@@ -50,11 +50,6 @@ fn rows(paths: &[String], columns: &[&str], found: &[Found], of: impl Fn(&Found)
     let names = paths.iter().cloned().chain(columns.iter().map(|name| (*name).to_string())).collect();
     let own = found.iter().flat_map(|one| of(one).into_iter().map(|row| one.values.iter().cloned().chain(row).collect()));
     std::iter::once(names).chain(own).collect()
-}
-
-/// Word of a scene.
-fn word(integrator: crate::method::Integrator) -> String {
-    toml::Value::try_from(integrator).ok().and_then(|value| value.as_str().map(str::to_string)).unwrap_or_default()
 }
 
 /// Five digits; nothing where there is no number.
