@@ -173,16 +173,17 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
         let names: Vec<&str> = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str()).collect();
         return Err(format!("belongs to `{word}`, which is no obstacle{}", hint(word, &names)));
     }
-    if scene.select(typed.body.as_deref(), typed.inside.as_ref()).is_empty() {
+    let selected = scene.select(typed.body.as_deref(), typed.inside.as_ref());
+    if selected.is_empty() {
         return Err("selects no particle".into());
     }
     check_numbers(typed)?;
-    let present = scene.fields();
-    if let Some(missing) = moment::needed(scene, kind.fields).iter().find(|field| !present.contains(field)) {
-        return Err(format!("needs the field {}, which this scene does not name", missing.name()));
-    }
+    moment::check_fields(scene, kind.fields, &selected)?;
     if let Some(path) = &typed.field {
         moment::check_path(scene, path)?;
+        // What is read at a place may belong to any body; elsewhere to those selected.
+        let read: &[usize] = if typed.at.is_some() { &[] } else { &selected };
+        moment::check_fields(scene, moment::fields_of(path)?, read)?;
     }
     Ok(())
 }

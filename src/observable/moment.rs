@@ -8,6 +8,7 @@ use crate::output::{Column, Snapshot};
 use crate::scene::Scene;
 use crate::scene::file::Units;
 use crate::scene::read::hint;
+use crate::step;
 use glam::DMat3;
 
 /// Fields at one time.
@@ -84,17 +85,54 @@ pub fn fields_of_path(scene: &Scene, path: &str) -> Vec<Field> {
     quantity(path).map_or_else(|_| Vec::new(), |q| read(scene, q.2))
 }
 
-/// Refuses what is no whole quantity, or one of a field that the scene lacks.
+/// Refuses what is no whole quantity, or one of a field that no group of the scene has. Particles of the groups that lack the
+/// field have no number then.
 pub fn check_quantity(scene: &Scene, name: &str) -> Result<(), String> {
     let (word, _, fields) = quantity(name)?;
     if *word != name {
         return Err(format!("reads `{name}`, a part: name the whole `{word}`"));
     }
-    let present = scene.fields();
-    match needed(scene, fields).iter().find(|field| !present.contains(field)) {
-        Some(field) => Err(format!("reads {word}, and this scene has no field {}", field.name())),
-        None => Ok(()),
+    let missing: Vec<Option<Field>> = scene.groups().iter().map(|group| missing(scene, group, fields)).collect();
+    match missing.first() {
+        Some(Some(field)) if missing.iter().all(Option::is_some) => {
+            Err(format!("reads {word}, and this scene has no field {}", field.name()))
+        }
+        _ => Ok(()),
     }
+}
+
+/// The first of the fields that a group cannot do without and lacks. Facets and obstacles, and what acts between groups, belong
+/// to the whole scene.
+fn missing(scene: &Scene, group: &Scene, fields: &[Field]) -> Option<Field> {
+    let (own, all) = (step::fields(&group.method), scene.fields());
+    let present = |field: &Field| match field.set() {
+        Set::Particle if *field != Field::ContactEnergy => own.contains(field),
+        _ => all.contains(field),
+    };
+    needed_by(group, fields).into_iter().find(|field| !present(field))
+}
+
+/// Refuses fields that a group lacks to which some of the particles belong.
+pub fn check_fields(scene: &Scene, fields: &[Field], particles: &[usize]) -> Result<(), String> {
+    for group in scene.groups() {
+        let own = group.first_number as usize..group.first_number as usize + group.particles.len();
+        if let Some(field) = missing(scene, group, fields).filter(|_| particles.iter().any(|i| own.contains(i))) {
+            return Err(match scene.parts.is_empty() {
+                true => format!("needs the field {}, which this scene does not name", field.name()),
+                false => format!(
+                    "needs the field {}, which the group of the body `{}` lacks: take it over other bodies",
+                    field.name(),
+                    group.bodies[0].name
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The fields that a path reads.
+pub fn fields_of(path: &str) -> Result<&'static [Field], String> {
+    quantity(path).map(|(_, _, fields)| *fields)
 }
 
 /// Refuses a path that names no quantity, no part of it, or a field that the scene lacks.
@@ -141,6 +179,12 @@ impl<'a> Moment<'a> {
 
     pub fn scalar(&self, field: Field, i: usize) -> f64 {
         self.row(field, i)[0]
+    }
+
+    /// A particle's number; none where its group lacks the field.
+    fn own(&self, field: Field, i: usize) -> f64 {
+        let absent = !self.scene.parts.is_empty() && !step::fields(&self.scene.group_of(i).method).contains(&field);
+        if absent { f64::NAN } else { self.scalar(field, i) }
     }
 
     pub fn vector(&self, field: Field, i: usize) -> [f64; 3] {
@@ -231,10 +275,10 @@ impl<'a> Moment<'a> {
             "pressure" => vec![self.pressure(i)],
             "density" => vec![self.scene.bodies[particle.body as usize].material.density / (1.0 + self.volumetric_strain(i))],
             "volumetric_strain" => vec![self.volumetric_strain(i)],
-            "internal_energy" => vec![self.scalar(Field::InternalEnergy, i)],
-            "dissipated_energy" => vec![self.scalar(Field::DissipatedEnergy, i)],
-            "equivalent_plastic_strain" => vec![self.scalar(Field::EquivalentPlasticStrain, i)],
-            "temperature" => vec![self.scalar(Field::Temperature, i)],
+            "internal_energy" => vec![self.own(Field::InternalEnergy, i)],
+            "dissipated_energy" => vec![self.own(Field::DissipatedEnergy, i)],
+            "equivalent_plastic_strain" => vec![self.own(Field::EquivalentPlasticStrain, i)],
+            "temperature" => vec![self.own(Field::Temperature, i)],
             "body" => vec![f64::from(particle.body)],
             _ => vec![f64::from(particle.constraint)],
         }

@@ -61,7 +61,10 @@ pub(super) fn pairs(
             may_touch(file, kinds, &path, refuse)?;
         }
         refuse.unless(!across || contact.zones.is_none(), &path, || {
-            "zones belong to bodies of one formulation: between these name a potential or a colour_field".into()
+            "zones belong to bodies of one group: between these, whose formulations differ, name a potential or a colour_field".into()
+        })?;
+        refuse.unless(!across || contact.colour_field.is_none() || one_kernel(file, groups, contact), &path, || {
+            "a colour field is summed by one kernel: these bodies need the same formulation.smoothing".into()
         })?;
         for (a, b) in copies::pairs(bodies, &contact.between) {
             let Some(pair) = pair_of(file, bodies, contact, (&at, [&bodies[a], &bodies[b]]), refuse)? else { continue };
@@ -81,6 +84,16 @@ pub(super) fn pairs(
         }
     }
     Ok(table)
+}
+
+/// Whether the bodies of a contact have the same kernel, as all others between groups that touch by the colour field.
+fn one_kernel(file: &File, groups: &[Group], contact: &ContactTable) -> bool {
+    let named = file.contact.iter().filter(|other| other.colour_field.is_some() && across(groups, file, other));
+    let words = named.chain([contact]).flat_map(|contact| &contact.between);
+    let mut kernels =
+        words.filter_map(|word| groups.iter().find(|group| group.has(file, word))).map(|group| group.formulation.smoothing);
+    let first = kernels.next();
+    kernels.all(|kernel| Some(kernel) == first)
 }
 
 /// The row of the table of pairs for two bodies whose contact names a law.
@@ -118,9 +131,9 @@ fn positive(numbers: &[(&str, f64)], path: &[&str], refuse: &Refuse) -> Result<(
     Ok(())
 }
 
-/// Mean spacing of two bodies, and the lower of their Young's moduli.
+/// Mean spacing of two bodies, and the lower of their moduli.
 fn scales([a, b]: [&SceneBody; 2]) -> (f64, f64) {
-    (0.5 * (a.spacing + b.spacing), a.material.youngs_modulus().min(b.material.youngs_modulus()))
+    (0.5 * (a.spacing + b.spacing), a.material.contact_modulus().min(b.material.contact_modulus()))
 }
 
 fn by_potential(
@@ -157,7 +170,7 @@ fn by_colour_field(
     })?;
     let alike = file.contact.iter().filter_map(|contact| contact.colour_field.as_ref()).all(|other| other == typed);
     refuse.unless(alike, path, || "all contacts by the colour field share one stiffness, threshold and range".into())?;
-    let modulus = bodies.iter().map(|body| body.material.youngs_modulus()).fold(f64::INFINITY, f64::min);
+    let modulus = bodies.iter().map(|body| body.material.contact_modulus()).fold(f64::INFINITY, f64::min);
     let range = typed.range * scales(both).0;
     let (strength, threshold) = (typed.stiffness * modulus, typed.threshold);
     Ok(ContactPair { law: COLOUR_FIELD, strength, range, threshold, ..ContactPair::default() })

@@ -3,9 +3,9 @@
 //! of their own, with their own fields, lists and passes: see [`crate::step`].
 
 use super::file::{ContactTable, File, FormulationTable};
-use super::read::hint;
+use super::read::{hint, is_formulation_key};
 use super::refuse::Refuse;
-use crate::method::Formulation;
+use crate::method::{Configuration, Formulation};
 use std::collections::BTreeSet;
 
 /// Bodies that step together, and the formulation of the first.
@@ -28,7 +28,11 @@ pub(super) fn groups(file: &File, refuse: &Refuse) -> Result<Vec<Group>, String>
         let Some(formulation) = of_body(file, k) else {
             let name = body.formulation.as_deref().unwrap_or_default();
             let names: Vec<&str> = file.formulations.keys().map(String::as_str).collect();
-            let message = format!("no [formulation.{name}]{}", hint(name, &names));
+            let message = if is_formulation_key(name) {
+                format!("`{name}` is a key of every formulation: a named one needs another name")
+            } else {
+                format!("no [formulation.{name}]{}", hint(name, &names))
+            };
             return Err(refuse.at(&["body", &k.to_string(), "formulation"], message));
         };
         match list.iter_mut().find(|group| one_group(&group.formulation, formulation)) {
@@ -39,6 +43,12 @@ pub(super) fn groups(file: &File, refuse: &Refuse) -> Result<Vec<Group>, String>
         }
     }
     let named: BTreeSet<&str> = file.body.iter().filter_map(|body| body.formulation.as_deref()).collect();
+    let own = refuse.source.keys(&["formulation"]);
+    let idle = own.into_iter().find(|key| is_formulation_key(key) && file.body.iter().all(|body| body.formulation.is_some()));
+    if let Some(key) = idle {
+        let message = format!("{key} of the plain [formulation] would do nothing: every body names another formulation");
+        return Err(refuse.at(&["formulation", key], message));
+    }
     match file.formulations.keys().find(|name| !named.contains(name.as_str())) {
         Some(idle) => Err(refuse.at(&["formulation", idle], format!("no body names [formulation.{idle}]: it would do nothing"))),
         None => Ok(list),
@@ -55,10 +65,23 @@ fn one_group(a: &FormulationTable, b: &FormulationTable) -> bool {
     structure(a, b) == structure(b, a)
 }
 
-/// A formulation without the numbers that each body of a group has for itself. What strengthens nothing in one formulation is
-/// taken to have the form that it has in the other.
+/// A formulation without what parts no bodies: the numbers that each body of a group has for itself, the lengths of lists, and
+/// energies that are only added up. What strengthens nothing in one formulation is taken to have the form that it has in the
+/// other.
 fn structure(own: &FormulationTable, other: &FormulationTable) -> FormulationTable {
-    let mut bare = FormulationTable { smoothing_length: 0.0, hourglass: None, gradient: Some(own.gradient()), ..own.clone() };
+    let mut bare = FormulationTable {
+        smoothing_length: 0.0,
+        hourglass: None,
+        gradient: Some(own.gradient()),
+        bond_table: None,
+        xsph: own.xsph.filter(|weight| *weight > 0.0),
+        velocity_filter: own.velocity_filter.filter(|weight| *weight > 0.0),
+        internal_energy: false,
+        dissipated_energy: false,
+        list_margin: None,
+        list_capacity: None,
+        ..own.clone()
+    };
     bare.viscosity = own.viscosity.clone().or_else(|| other.viscosity.clone());
     if let Some(viscosity) = &mut bare.viscosity {
         (viscosity.alpha, viscosity.beta) = (0.0, None);
@@ -70,12 +93,63 @@ fn structure(own: &FormulationTable, other: &FormulationTable) -> FormulationTab
     bare
 }
 
+/// The first key in which two formulations differ so that their bodies are no group.
+fn difference(a: &FormulationTable, b: &FormulationTable) -> &'static str {
+    let (a, b) = (structure(a, b), structure(b, a));
+    let keys = [
+        ("kind", a.kind == b.kind),
+        ("smoothing", a.smoothing == b.smoothing),
+        ("density", a.density == b.density),
+        ("gradient", a.gradient == b.gradient),
+        ("xsph", a.xsph == b.xsph),
+        ("velocity_filter", a.velocity_filter == b.velocity_filter),
+        ("viscosity.softening", a.viscosity == b.viscosity),
+        ("artificial_stress", a.artificial_stress == b.artificial_stress),
+    ];
+    keys.into_iter().find(|(_, same)| !same).map_or("configuration", |(key, _)| key)
+}
+
+/// Refuses bodies that the kernel would join, as it joins all Eulerian bodies, if their formulations did not part them, unless
+/// a contact says what acts between them.
+pub(super) fn check_parted(file: &File, groups: &[Group], refuse: &Refuse) -> Result<(), String> {
+    let current = |group: &Group| match group.kind() {
+        Formulation::TotalLagrangian => false,
+        Formulation::Eulerian => true,
+        Formulation::CorrectedKernel => group.formulation.configuration != Some(Configuration::Reference),
+    };
+    let joined: Vec<&Group> = groups.iter().filter(|group| current(group)).collect();
+    for (k, one) in joined.iter().enumerate() {
+        for other in &joined[..k] {
+            for (&a, &b) in one.bodies.iter().flat_map(|a| other.bodies.iter().map(move |b| (a, b))) {
+                let names =
+                    |body: usize, word: &String| file.body[body].name == *word || file.body[body].group.as_ref() == Some(word);
+                let between = |[x, y]: &[String; 2]| (names(a, x) && names(b, y)) || (names(a, y) && names(b, x));
+                if !file.contact.iter().any(|contact| between(&contact.between)) {
+                    let key = difference(&one.formulation, &other.formulation);
+                    let message = format!(
+                        "`{}` and `{}` have no kernel sums with each other, since their formulations differ in {key}: name a \
+                         [[contact]] between them (kernel = 0 for none)",
+                        file.body[b].name, file.body[a].name
+                    );
+                    return Err(refuse.at(&["body", &a.to_string(), "formulation"], message));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 impl Group {
     fn add(&mut self, body: usize, formulation: &FormulationTable) {
         self.bodies.push(body);
         let own = &mut self.formulation;
         own.viscosity = own.viscosity.take().or_else(|| formulation.viscosity.clone());
         own.artificial_stress = own.artificial_stress.take().or_else(|| formulation.artificial_stress.clone());
+        own.internal_energy |= formulation.internal_energy;
+        own.dissipated_energy |= formulation.dissipated_energy;
+        own.bond_table = own.bond_table.into_iter().chain(formulation.bond_table).reduce(|a, b| a && b);
+        own.list_margin = own.list_margin.into_iter().chain(formulation.list_margin).reduce(f64::max);
+        own.list_capacity = own.list_capacity.into_iter().chain(formulation.list_capacity).max();
     }
 
     /// The scene as a group alone sees it: its bodies, its formulation, what acts between its bodies. Obstacles stay where its

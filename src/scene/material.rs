@@ -348,6 +348,11 @@ impl Material {
         9.0 * self.bulk_modulus * self.shear_modulus / (3.0 * self.bulk_modulus + self.shear_modulus)
     }
 
+    /// The modulus by which contact is as stiff as its body: Young's, of a fluid that of its bulk.
+    pub fn contact_modulus(&self) -> f64 {
+        if self.shear_modulus > 0.0 { self.youngs_modulus() } else { self.bulk_modulus }
+    }
+
     /// Speed of longitudinal waves.
     pub fn sound_speed(&self) -> f64 {
         ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / self.density).sqrt()

@@ -42,14 +42,42 @@ impl Scene {
         }
     }
 
+    /// One line for each thing that a user should know of a scene of several groups: which there are, and which of them nothing
+    /// acts between.
+    pub fn grouping(&self) -> Vec<String> {
+        let names = |part: &Scene| {
+            let mut names: Vec<&str> = part.bodies.iter().map(|body| body.group.as_str()).collect();
+            names.dedup();
+            names.join(", ")
+        };
+        let mut lines = Vec::new();
+        if !self.parts.is_empty() {
+            let of = |part: &Scene| format!("{} ({})", names(part), part.method.formulation.word());
+            lines.push(format!("groups of bodies: {}", self.parts.iter().map(of).collect::<Vec<_>>().join("; ")));
+        }
+        for (k, one) in self.parts.iter().enumerate() {
+            for other in &self.parts[..k] {
+                let bodies = |part: &Scene| part.part_of.as_ref().map_or_else(Vec::new, |(bodies, _)| bodies.clone());
+                let others = bodies(other);
+                let acts = bodies(one).into_iter().any(|a| others.iter().any(|&b| self.contacts[a][b].range > 0.0));
+                if !acts {
+                    lines.push(format!("nothing acts between {} and {}: they pass through each other", names(other), names(one)));
+                }
+            }
+        }
+        lines
+    }
+
     /// The method of what acts between the groups.
     pub(super) fn method_between(&self, groups: &[Group]) -> Method {
         let mut file = self.file.clone();
         file.contact.retain(|contact| across(groups, &self.file, contact));
+        let coloured = file.contact.iter().find(|contact| contact.colour_field.is_some());
+        let of_contact = coloured.and_then(|contact| groups.iter().find(|group| group.has(&self.file, &contact.between[0])));
         Method {
             dimension: self.file.dimension,
             between: true,
-            smoothing: self.file.formulation.smoothing,
+            smoothing: of_contact.unwrap_or(&groups[0]).formulation.smoothing,
             integrator: self.file.time.integrator,
             laws: Vec::new(),
             many_bodies: true,

@@ -3,7 +3,7 @@
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
 use super::file::{ArtificialSpacing, Axis, File, Fixed, FormulationTable, Viscosity};
-use super::groups::{Group, across, groups, of_body};
+use super::groups::{Group, across, check_parted, groups, of_body};
 use super::material::Material;
 use super::packing::fill;
 use super::read::{Read, hint};
@@ -34,7 +34,8 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         // What asks the scene for its formulation means that of its bodies, also where it has a name.
         file.formulation = only.formulation.clone();
     }
-    let bodies = bodies(&file, &refuse)?;
+    check_parted(&file, &groups, &refuse)?;
+    let bodies = bodies(&file, &groups, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
     // The particles of a group follow each other. The sort is stable: of one group they keep their order.
     particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
@@ -184,7 +185,7 @@ fn weights(f: &FormulationTable, refuse: &Refuse) -> Result<(), String> {
     Ok(())
 }
 
-fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
+fn bodies(file: &File, groups: &[Group], refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
     let mut list: Vec<SceneBody> = Vec::new();
     for (k, typed) in file.body.iter().enumerate() {
         let at = k.to_string();
@@ -203,6 +204,8 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
         let named = |message| refuse.at(&["material", &typed.material], format!("material `{}` {message}", typed.material));
         let formulation = of_body(file, k).unwrap_or(&file.formulation);
         let material = Material::resolve(material, formulation.kind).map_err(named)?;
+        let group = groups.iter().find(|group| group.bodies.contains(&k));
+        let yields = group.is_some_and(|group| group.bodies.iter().any(|&other| file.yields(&file.body[other])));
         let relative_volume = typed.relative_volume.unwrap_or(1.0);
         if !(relative_volume > 0.0 && relative_volume.is_finite()) {
             return Err(refuse_at(
@@ -231,7 +234,7 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
             spacing,
             smoothing_length: formulation.smoothing_length * spacing,
             material,
-            options: options(file, typed, formulation),
+            options: options(formulation, yields),
             relative_volume,
             deviator,
         });
@@ -239,15 +242,14 @@ fn bodies(file: &File, refuse: &Refuse) -> Result<Vec<SceneBody>, String> {
     Ok(list)
 }
 
-/// Numbers of a body's formulation; 0 for what it does not name.
-fn options(file: &File, body: &file::BodyTable, f: &FormulationTable) -> BodyOptions<f64> {
+/// Numbers of a body's formulation; 0 for what it does not name. `yields` if some body of its group does.
+fn options(f: &FormulationTable, yields: bool) -> BodyOptions<f64> {
     let viscosity = |number: fn(&Viscosity) -> f64| f.viscosity.as_ref().map_or(0.0, number);
-    let alike = file.body.iter().filter(|other| other.formulation == body.formulation);
     BodyOptions {
         alpha: viscosity(|v| v.alpha),
         beta: viscosity(|v| v.beta.unwrap_or(2.0 * v.alpha)),
         artificial_epsilon: f.artificial_stress.as_ref().map_or(0.0, |a| a.epsilon),
-        hourglass: f.hourglass(alike.into_iter().any(|body| file.yields(body))),
+        hourglass: f.hourglass(yields),
     }
 }
 
@@ -391,7 +393,7 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
         let meets = touching.iter().all(|&(a, b)| table[a][b] > 0.0);
         refuse.unless(meets || kernel == 0.0, &["contact", &at, "kernel"], || {
             if across(groups, file, contact) {
-                "bodies whose formulations differ in more than numbers have no kernel sums with each other: kernel must be 0"
+                "bodies of different groups, whose formulations differ in more than numbers, have no kernel sums with each other: kernel must be 0"
                     .into()
             } else {
                 "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()

@@ -162,7 +162,8 @@ impl Scene {
         } else {
             self.file.list_margin()
         };
-        self.file.formulation.list_margin.unwrap_or(usual) * self.smoothing_length()
+        let named = self.file.formulation.list_margin.filter(|_| !self.method.between);
+        named.unwrap_or(usual) * self.smoothing_length()
     }
 
     /// Distance up to which pairs enter the list of contacts; 0 where nothing touches.

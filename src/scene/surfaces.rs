@@ -85,8 +85,8 @@ impl Parts<'_> {
         let Some(group) = self.groups.iter().find(has_all) else {
             return Err(refuse.at(
                 path,
-                "contact by surfaces is for bodies of one formulation: give them one, or name a potential; an obstacle takes \
-                 `against`",
+                "contact by surfaces is for bodies of one group, whose formulations differ in numbers alone: name a potential, or \
+                 for an obstacle the bodies that it is `against`",
             ));
         };
         refuse.unless(group.kind() == Formulation::TotalLagrangian, path, || {

@@ -236,22 +236,109 @@ fn a_scene_of_formulations_that_cannot_be_is_refused() {
         (
             "potential = { law = \"barrier\", stiffness = 0.5, range = 1.0 }",
             "gap = { stiffness = 2, range = 2 }",
-            "bodies of one formulation",
+            "for bodies of one group",
         ),
         (
             "potential = { law = \"barrier\", stiffness = 0.5, range = 1.0 }",
             "zones = { radius = 2, stiffness = 1e-3 }",
-            "zones belong to bodies of one formulation",
+            "zones belong to bodies of one group",
         ),
+        ("formulation = \"rates\"", "formulation = \"viscosity\"", "`viscosity` is a key of every formulation"),
+        ("name = \"bonded\"", "name = \"bonded\"\nformulation = \"rates\"", "kind of the plain [formulation] would do nothing"),
+        ("kind = \"total_lagrangian\"", "xsph = 0.5", "differ in gradient: name a [[contact]] between them"),
+        ("[time]", "[observe]\nt = { kind = \"mean\", field = \"temperature\" }\n[time]", "this scene has no field temperature"),
         ("[time]", "[quasi_static]\nload_steps = 2\n[time]", "equilibrium is sought for bodies of one formulation"),
         (
             "[time]",
             "[[obstacle]]\nname = \"wall\"\nshape = { plane = { point = [0, -20], normal = [0, 1] } }\n[time]",
-            "an obstacle takes `against`",
+            "for an obstacle the bodies that it is `against`",
         ),
     ] {
         let sentence = refused(from, to);
         assert!(sentence.contains(wanted), "{sentence}");
         assert!(sentence.starts_with("test:"), "{sentence}");
     }
+}
+
+/// What only sizes lists or adds up energies, or is zero, parts no bodies; nor does a copy of a formulation under another name.
+#[test]
+fn only_what_changes_the_passes_parts_bodies() {
+    let both = |other: &str| {
+        let text = text_of(0.5, "", "").replace("kind = \"total_lagrangian\"", "smoothing_length = 1.4\ngradient = \"adjoint\"");
+        let text = text.replace("law = \"neo_hookean\"\n", "").replace("viscosity = { alpha = 0.2 }", other);
+        Scene::parse(&text, "test", None, &[])
+    };
+    for other in [
+        "",
+        "xsph = 0",
+        "list_margin = 0.3",
+        "list_capacity = 99",
+        "internal_energy = true",
+        "viscosity = { alpha = 3, beta = 0 }",
+    ] {
+        let scene = both(other).unwrap();
+        assert!(scene.parts.is_empty(), "{other}");
+        assert_eq!(scene.method.body_options, other.starts_with("viscosity"), "{other}");
+        assert_eq!(scene.method.internal_energy, other.starts_with("internal"), "{other}");
+        assert!(scene.coupling.iter().flatten().all(|&weight| weight == 1.0), "{other}");
+    }
+    for other in ["xsph = 0.1", "smoothing = \"wendland\"", "density = \"summation\""] {
+        let sentence = both(other).map(|_| ()).unwrap_err();
+        let key = other.split(' ').next().unwrap();
+        assert!(sentence.contains(&format!("their formulations differ in {key}: name a [[contact]]")), "{sentence}");
+    }
+}
+
+/// A body that yields lowers the hourglass strength of its group, also where the others name a copy of the formulation.
+#[test]
+fn a_copy_of_a_formulation_changes_nothing() {
+    let hourglass = |name: &str| {
+        let text = text_of(30.0, "", "")
+            .replace("formulation = \"rates\"", name)
+            .replace("material = \"rubber\"", "material = \"metal\"");
+        let text = text.replace(
+            "[formulation.rates]\nsmoothing_length = 1.4\ngradient = \"adjoint\"\nviscosity = { alpha = 0.2 }",
+            if name.is_empty() { "" } else { "[formulation.copy]\nkind = \"total_lagrangian\"" },
+        );
+        let text = text.replace("[material.rubber]", "[material.metal]\nlaw = \"j2\"\nyield_stress = 0.1");
+        let scene = parse(&text);
+        assert!(scene.parts.is_empty());
+        scene.bodies.iter().map(|body| body.options.hourglass).collect::<Vec<_>>()
+    };
+    assert_eq!(hourglass(""), [0.1, 0.1]);
+    assert_eq!(hourglass("formulation = \"copy\""), [0.1, 0.1]);
+}
+
+/// Contact is as stiff as the softer body, a fluid by its bulk.
+#[test]
+fn a_fluid_is_kept_out_of_a_solid() {
+    let text = text_of(1.5, "", BARRIER).replace(
+        "[material.rubber]\ndensity = 1.0\nyoungs_modulus = 1.0\npoisson_ratio = 0.3",
+        "[material.rubber]\nlaw = \"fluid\"\ndensity = 1.0\nbulk_modulus = 0.5",
+    );
+    let scene = parse(&text);
+    assert!(scene.contacts[0][1].strength > 0.2 && scene.contacts[0][1].strength < 0.3, "{:?}", scene.contacts[0][1]);
+    let mut cpu = cpu(&scene);
+    steps(&mut cpu, 200);
+    let speed = |k: usize| {
+        let velocity = &cpu.members[k].columns.velocity;
+        velocity.iter().map(|v| v[0]).sum::<f64>() / velocity.len() as f64
+    };
+    assert!(speed(0) < 0.03 && speed(1) > 0.0, "the drop went through: {} {}", speed(0), speed(1));
+}
+
+#[test]
+fn what_a_group_lacks_is_no_number() {
+    let text =
+        text_of(30.0, "", "").replace("viscosity = { alpha = 0.2 }", "viscosity = { alpha = 0.2 }\ninternal_energy = true");
+    let with = |observe: &str| Scene::parse(&format!("{text}[observe]\n{observe}\n"), "discs", None, &["duration=1".into()]);
+    let refused = |observe: &str| with(observe).map(|_| ()).unwrap_err();
+    let sentence = refused("e = { kind = \"mean\", field = \"internal_energy\" }");
+    assert!(sentence.contains("which the group of the body `bonded` lacks"), "{sentence}");
+    let sentence = refused("e = { kind = \"internal_energy\" }");
+    assert!(sentence.contains("which the group of the body `bonded` lacks"), "{sentence}");
+    let scene = with("e = { kind = \"mean\", field = \"internal_energy\", body = \"flowing\" }\np = { kind = \"probe\", field = \"internal_energy\", at = [6, -2] }").unwrap();
+    let finished = run(&scene, &Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() }).unwrap();
+    assert!(finished.table.columns["e"].iter().all(|e| e.is_finite()));
+    assert!(finished.table.columns["p"].iter().all(|p| p.is_nan()), "the bonded disc has no internal energy of its own");
 }

@@ -1,6 +1,7 @@
 //! Changes to a scene's tree: a variant merged over it, an override put at its path.
 
 use super::super::words::{hint, is_choice, one_line, quoted};
+use super::from_tree::is_formulation_key;
 use super::tree::{Entry, Node, Place, Value, node, position};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry::{Occupied, Vacant};
@@ -106,7 +107,7 @@ pub(super) fn apply(root: &mut Node, text: &str, removals: &mut Vec<Removal>) ->
 /// A key below a name that the scene lacks: the name is a slip rather than one more material.
 fn refuse_new_name(root: &Node, path: &[String]) -> Result<(), String> {
     if let [table, name, _, ..] = path
-        && NAMED.contains(&table.as_str())
+        && (NAMED.contains(&table.as_str()) || (table == "formulation" && !is_formulation_key(name)))
         && !root.names(table).contains(&name.as_str())
     {
         return Err(format!("there is no `{table}.{name}`{}", hint(name, &root.names(table))));

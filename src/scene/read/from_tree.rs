@@ -34,7 +34,7 @@ fn formulations_apart(root: &Node) -> Node {
     let Some(Entry { place, node: Node { value: Value::Table(keys), .. } }) = tables.get_mut("formulation") else { return root };
     let named = |key: &str, entry: &Entry| {
         let table = matches!(entry.node.value, Value::Table(_));
-        table && !knows::<FormulationTable>(key) && nearest(key, OWN_TABLES).is_none()
+        table && !is_formulation_key(key) && nearest(key, OWN_TABLES).is_none()
     };
     let (apart, own) = std::mem::take(keys).into_iter().partition::<BTreeMap<_, _>, _>(|(key, entry)| named(key, entry));
     *keys = own;
@@ -44,6 +44,11 @@ fn formulations_apart(root: &Node) -> Node {
         tables.insert(FORMULATIONS.to_string(), entry);
     }
     root
+}
+
+/// Whether a formulation has the key.
+pub(crate) fn is_formulation_key(key: &str) -> bool {
+    knows::<FormulationTable>(key)
 }
 
 /// Whether a table that is read as this type may have the key.

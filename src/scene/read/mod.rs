@@ -13,6 +13,7 @@ pub use super::words::{hint, nearest};
 use super::words::{list, one_line};
 use change::{NAMED, Removal, apply, assign, merge};
 use from_tree::deserialize;
+pub(crate) use from_tree::is_formulation_key;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
@@ -112,6 +113,17 @@ impl Read {
 }
 
 impl Source {
+    /// Keys of the table at a path; none where there is no table.
+    pub fn keys(&self, path: &[&str]) -> Vec<&str> {
+        let mut node = &self.root;
+        for part in path {
+            let Value::Table(entries) = &node.value else { return Vec::new() };
+            let Some(entry) = entries.get(*part) else { return Vec::new() };
+            node = &entry.node;
+        }
+        node.keys()
+    }
+
     /// "scenes/rings.toml:12" of the value at a path of keys and indices, or of its nearest enclosing
     /// table; "--set velocity" for an override.
     pub fn place(&self, path: &[&str]) -> String {
@@ -216,6 +228,13 @@ impl Document {
                 && NAMED.contains(&table.as_str())
             {
                 return Err(format!("{place}: there is no `{table}.{name}` to remove{}", hint(name, &root.names(table))));
+            }
+            // A named formulation was there, and is gone.
+            if let ([table, name], true) = (removal.path.as_slice(), removal.existed)
+                && table == "formulation"
+                && !is_formulation_key(name)
+            {
+                continue;
             }
             let mut probe = root.clone();
             let value = Some(Node { place: removal.place.clone(), value: Value::Literal("true".to_string()) });
