@@ -30,12 +30,12 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: None };
     numbers(&file, &refuse)?;
     let groups = groups(&file, &refuse)?;
+    check_parted(&file, &groups, &refuse)?;
+    let bodies = bodies(&file, &groups, &refuse)?;
     if let [only] = &groups[..] {
         // What asks the scene for its formulation means that of its bodies, also where it has a name.
         file.formulation = only.formulation.clone();
     }
-    check_parted(&file, &groups, &refuse)?;
-    let bodies = bodies(&file, &groups, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
     // The particles of a group follow each other. The sort is stable: of one group they keep their order.
     particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
