@@ -81,7 +81,7 @@ pub fn steps(members: &[Method]) -> Steps {
         };
     }
     let together = Together { groups, between };
-    let each = |calls: fn(&Method) -> Vec<Call>| together.each(|method| calls(method));
+    let each = |calls: fn(&Method) -> Vec<Call>| together.each(calls);
     let listing = together.touching(FIXED, begin_segment(between), &[]);
     Steps {
         prepare: each(prepare),
