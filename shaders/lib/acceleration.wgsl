@@ -1,6 +1,7 @@
-// What acts on a particle, and what is prescribed. The pass declares `acceleration`, and `constraint` where a scene has
-// constraints. Twins: acceleration, prescribe in src/pass/kick.rs
+// What acts on a particle, and what is prescribed. The pass declares `acceleration`.
+// Twins: acceleration, prescribe in src/pass/kick.rs
 #import course
+#import constraint if constraints
 
 // Acceleration by neighbours, by the body force and by a prescribed force.
 fn acceleration_at(a: u32, time: real) -> Vec {

@@ -1,4 +1,5 @@
-// Numbers of the formulation in which the bodies of a run differ, laid out as in src/rows.rs; a test compares the offsets.
+// Numbers of the formulation in which the bodies of a run may differ, laid out as in src/rows.rs; a test compares the
+// offsets.
 #import params
 #import body_index
 
@@ -9,6 +10,7 @@ struct BodyOptions {
     hourglass: real,
 }
 
+#if body_options
 // A row for each body.
 @group(0) @binding(_) var<storage, read> body_options: array<BodyOptions>;
 
@@ -16,3 +18,9 @@ struct BodyOptions {
 fn options_of(a: u32) -> BodyOptions {
     return body_options[body_index(a)];
 }
+#else
+// Those of all bodies.
+fn options_of(a: u32) -> BodyOptions {
+    return BodyOptions(params.alpha, params.beta, params.artificial_epsilon, params.hourglass);
+}
+#endif

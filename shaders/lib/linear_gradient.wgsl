@@ -1,6 +1,5 @@
 // Gradient of the displacement that is exact for linear fields. The pass declares `reference_position`,
-// `reference_volume`, `displacement`, and `reference_correction` where the gradient is corrected.
-// Twins: sum_bonds, corrected in src/pass/deform.rs
+// `reference_volume` and `displacement`. Twins: sum_bonds, corrected in src/pass/deform.rs
 #import displacement_difference
 
 // sum V_b (u_b - u_a) (x) grad_a W_ab
@@ -18,11 +17,15 @@ fn sum_bonds(a: u32, row: u32) -> Mat {
     return sum;
 }
 
-// M K_a^-1
-fn corrected(a: u32, m: Mat) -> Mat {
+// M K_a^-1, or M where the gradient is the plain one.
 #if correct_rate
+@group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
+
+fn corrected(a: u32, m: Mat) -> Mat {
     return mat_mat(m, mat_of_sym(reference_correction[a]));
-#else
-    return m;
-#endif
 }
+#else
+fn corrected(a: u32, m: Mat) -> Mat {
+    return m;
+}
+#endif

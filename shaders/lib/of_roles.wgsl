@@ -1,9 +1,7 @@
 // A material of a pressure and a strength at finite strain. Twin: src/material/mod.rs
 #import inelastic
 #import pressures
-#if plastic
-#import finite_return
-#endif
+#import finite_return if plastic
 
 fn first_piola_of_roles(body: Body, h: Mat, memory: Sym) -> Mat {
     return first_piola_inelastic(body, h, memory, kirchhoff(body, volume_change(h)));

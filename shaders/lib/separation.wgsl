@@ -1,8 +1,6 @@
 // x_a - x_b. The pass declares `reference_position`. Twin: separation in src/pair.rs
 #import params
-#if symmetry
-#import mirror
-#endif
+#import mirror if symmetry
 
 #if periodic
 // Shortens a separation to the nearest periodic image.

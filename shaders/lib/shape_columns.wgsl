@@ -1,8 +1,6 @@
 // The correction of a particle, as it was last made, and a neighbour's vectors. Twin: src/shape_function.rs
 #import shape
-#if symmetry
-#import mirror
-#endif
+#import mirror if symmetry
 
 #if correction
 @group(0) @binding(_) var<storage, read> shape_factor: array<real>;

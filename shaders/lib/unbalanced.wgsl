@@ -1,7 +1,7 @@
 // Acceleration of what is free, by the bonds and by the loads of the present load step; zero where it is held. The
-// pass declares `clock` and `acceleration`, and `constraint` where a scene has constraints.
-// Twin: unbalanced in src/pass/bound_residual.rs
+// pass declares `clock` and `acceleration`. Twin: unbalanced in src/pass/bound_residual.rs
 #import course
+#import constraint if constraints
 
 fn unbalanced(a: u32) -> Vec {
     var sum = acceleration[a];

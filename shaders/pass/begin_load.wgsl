@@ -3,9 +3,8 @@
 // remember of the load step before is settled.
 // Twin: src/pass/begin_load.rs
 #import course_integral
-#if compensated
-#import compensated
-#endif
+#import constraint if constraints
+#import compensated if compensated
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
@@ -19,9 +18,6 @@
 @group(0) @binding(_) var<storage, read> equivalent_plastic_strain: array<real>;
 @group(0) @binding(_) var<storage, read_write> equilibrium_inelastic_strain: array<Sym>;
 @group(0) @binding(_) var<storage, read_write> equilibrium_plastic_strain: array<real>;
-#endif
-#if constraints
-@group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 
 fn of_particle(a: u32) {

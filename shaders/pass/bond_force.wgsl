@@ -3,12 +3,9 @@
 // rho_0 a_a = sum V_b (P_a K_a^-1 + P_b K_b^-1) grad_a W_ab + hourglass force
 //
 // Twin: src/pass/bond_force.rs
-#if hourglass
-#import displacement_difference
-#import hourglass_stiffness
-#else
-#import bond
-#endif
+#import displacement_difference if hourglass
+#import hourglass_stiffness if hourglass
+#import bond if !hourglass
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;

@@ -1,9 +1,7 @@
 // Adds Monaghan's viscosity between the ends of the bonds of the reference configuration, the kernel's slope at the
 // distance there and the force along the present separation. Twin: src/pass/bond_friction.rs
 #import displacement_difference
-#if body_options
 #import body_options
-#endif
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
@@ -17,10 +15,8 @@
 
 fn of_particle(a: u32, row: u32) {
     let own_body = body_of(a);
-#if body_options
     // Bonds join particles of one body.
     let options = options_of(a);
-#endif
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let velocity_a = velocity[a];
@@ -33,11 +29,7 @@ fn of_particle(a: u32, row: u32) {
         // x_a - x_b
         let x = bond.x - displacement_difference(displacement_a, bond);
         let v_ba = velocity_difference(velocity_a, bond);
-#if body_options
         let friction = friction_of(own_body, options, h, bond, x, v_ba);
-#else
-        let friction = friction_of(own_body, h, bond, x, v_ba);
-#endif
         sum += friction;
         power += 0.5 * inner(v_ba, friction);
     }
@@ -47,18 +39,10 @@ fn of_particle(a: u32, row: u32) {
 #endif
 }
 
-#if body_options
 fn friction_of(own_body: Body, options: BodyOptions, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
-#else
-fn friction_of(own_body: Body, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
-#endif
     let square = inner(x, x);
     let mu = min(-h * inner(v_ba, x) / (square + params.softening * h * h), 0.0);
-#if body_options
     let pi = (options.beta * mu - options.alpha * own_body.sound_speed) * mu;
-#else
-    let pi = (params.beta * mu - params.alpha * own_body.sound_speed) * mu;
-#endif
     let weight = bond.gradient * reference_volume[bond.b];
     let reference = sqrt(inner(bond.x, bond.x));
     // The slope times V_b; m_b over rho_0 is V_b.

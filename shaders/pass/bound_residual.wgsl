@@ -14,9 +14,6 @@
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
 @group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
-#if constraints
-@group(0) @binding(_) var<storage, read> constraint: array<u32>;
-#endif
 
 const REDUCTION_BLOCK: u32 = 256u;
 

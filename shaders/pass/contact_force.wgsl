@@ -4,12 +4,8 @@
 #import separation
 #import mass
 #import contact_pair
-#if potentials
-#import potential
-#endif
-#if colour_field
-#import kernel
-#endif
+#import potential if potentials
+#import kernel if colour_field
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;

@@ -1,12 +1,9 @@
 // H_a = sum V_b (u_b - u_a) (x) grad psi_b(X_a) in the reference configuration, Shutov & Klyuchantsev 2019 (8).
 // Twin: src/pass/deform_by_shape.rs
-#if kept_gradients
-#import params
-#import mirror
-#else
-#import shape_node
-#import shape_columns
-#endif
+#import params if kept_gradients
+#import mirror if kept_gradients
+#import shape_node if !kept_gradients
+#import shape_columns if !kept_gradients
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;

@@ -1,9 +1,7 @@
 // One step toward equilibrium: u += back v, then v = keep v + push a, then u += forward v, with a the out-of-balance
 // acceleration. Twin: src/pass/descend.rs
 #import unbalanced
-#if compensated
-#import compensated
-#endif
+#import compensated if compensated
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> balance: Balance;
@@ -12,9 +10,6 @@
 @group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
 #if compensated
 @group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
-#endif
-#if constraints
-@group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 
 fn of_particle(a: u32) {

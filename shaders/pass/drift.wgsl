@@ -1,9 +1,7 @@
 // u += part step v, or the smoothed velocity for XSPH. Twin: src/pass/drift.rs
 #import params
 #import moving_velocity
-#if compensated
-#import compensated
-#endif
+#import compensated if compensated
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> displacement: array<Vec>;
@@ -11,9 +9,7 @@
 @group(0) @binding(_) var<storage, read_write> displacement_carry: array<Vec>;
 #endif
 #if xsph
-@group(0) @binding(_) var<storage, read> smoothed_velocity: array<Vec>;
 #if constraints
-@group(0) @binding(_) var<storage, read> constraint: array<u32>;
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 #endif
 #else

@@ -2,9 +2,7 @@
 // Twin: src/pass/find_neighbors.rs
 #import visit_cells
 #import separation
-#if coupling
-#import coupling
-#endif
+#import coupling if coupling
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;

@@ -7,9 +7,6 @@
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;
 @group(0) @binding(_) var<storage, read> reference_volume: array<real>;
 @group(0) @binding(_) var<storage, read> displacement: array<Vec>;
-#if correct_rate
-@group(0) @binding(_) var<storage, read> reference_correction: array<Sym>;
-#endif
 #if plastic
 #if quasi_static
 @group(0) @binding(_) var<storage, read> equilibrium_plastic_strain: array<real>;

@@ -1,17 +1,12 @@
 // v += part step a, then the boundary conditions. Twin: src/pass/kick.rs
 #import acceleration
-#if compensated
-#import compensated
-#endif
+#import compensated if compensated
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
 @group(0) @binding(_) var<storage, read_write> velocity: array<Vec>;
 #if compensated
 @group(0) @binding(_) var<storage, read_write> velocity_carry: array<Vec>;
-#endif
-#if constraints
-@group(0) @binding(_) var<storage, read> constraint: array<u32>;
 #endif
 #if internal_energy
 @group(0) @binding(_) var<storage, read> internal_power: array<real>;

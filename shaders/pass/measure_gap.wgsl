@@ -2,9 +2,7 @@
 // surface marks itself and the facets in its list as pressed. Twin: src/pass/measure_gap.rs
 #import facet_pair
 #import facet
-#if friction
-#import stick
-#endif
+#import stick if friction
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> facet_owner: array<u32>;

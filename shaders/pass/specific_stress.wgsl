@@ -2,11 +2,7 @@
 // stress R. Twin: src/pass/specific_stress.rs
 #import body
 #import pressures
-#if artificial_stress
-#if body_options
-#import body_options
-#endif
-#endif
+#import body_options if artificial_stress
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
@@ -40,18 +36,10 @@ fn of_particle(a: u32) {
     specific_stress[a] = sym_scale(stress_a, square_of_volume);
 #endif
 #if scalar_form
-#if body_options
     artificial_pressure[a] = -options_of(a).artificial_epsilon * max(-pressure_a, 0.0) * square_of_volume;
-#else
-    artificial_pressure[a] = -params.artificial_epsilon * max(-pressure_a, 0.0) * square_of_volume;
-#endif
 #endif
 #if principal_form
-#if body_options
     artificial_stress[a] = sym_scale(tensile_part(stress_a), -options_of(a).artificial_epsilon * square_of_volume);
-#else
-    artificial_stress[a] = sym_scale(tensile_part(stress_a), -params.artificial_epsilon * square_of_volume);
-#endif
 #endif
 }
 

@@ -7,13 +7,10 @@
 #import pair
 #import pair_velocity
 #import coupling
-#if correct_rate
-#import inverse
-#import volume
-#else
-#import mass
-#import density
-#endif
+#import inverse if correct_rate
+#import volume if correct_rate
+#import mass if !correct_rate
+#import density if !correct_rate
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> reference_position: array<Vec>;

@@ -3,13 +3,10 @@
 //
 // The rotation is Cayley's, Q = (1 - A/2)^-1 (1 + A/2) with A = step Omega (Hughes & Winget 1980).
 #import params
-#if shear
-#import body
-#import deviatoric_rate
-#endif
-#if plastic
-#import radial_return
-#endif
+#import body if shear
+#import deviatoric_rate if shear
+#import radial_return if plastic
+#import temperature if plastic
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
@@ -25,9 +22,6 @@
 #endif
 #if plastic
 @group(0) @binding(_) var<storage, read_write> equivalent_plastic_strain: array<real>;
-#if heated
-@group(0) @binding(_) var<storage, read_write> temperature: array<real>;
-#endif
 #if dissipated_energy
 @group(0) @binding(_) var<storage, read_write> dissipated_energy: array<real>;
 #endif
@@ -55,16 +49,12 @@ fn of_particle(a: u32) {
 // Returns stress to the yield surface.
 fn yield_to(a: u32) {
     let own = body_of(a);
-#if heated
-    let warm = temperature[a];
-#else
-    let warm: real = 0.0;
-#endif
+    let warm = temperature_of(a);
     let result = yielded(own, deviatoric_stress[a], equivalent_plastic_strain[a], warm, 1.0 + volumetric_strain[a], clock.step);
     deviatoric_stress[a] = result.deviator;
     equivalent_plastic_strain[a] += result.growth;
 #if heated
-    temperature[a] = warm + rise(own, result.work);
+    set_temperature(a, warm + rise(own, result.work));
 #endif
 #if dissipated_energy
     dissipated_energy[a] += result.work * (1.0 / own.density);

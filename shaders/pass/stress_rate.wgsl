@@ -1,10 +1,8 @@
 // Rates of volumetric strain, Fuller (2.21), and of deviatoric stress, (2.45), for the Runge-Kutta stages.
 // Twin: src/pass/stress_rate.rs
 #import params
-#if shear
-#import body
-#import deviatoric_rate
-#endif
+#import body if shear
+#import deviatoric_rate if shear
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;

@@ -3,9 +3,7 @@
 #import body_index
 #import facet_lever
 #import obstacle
-#if friction
-#import stick
-#endif
+#import stick if friction
 
 @group(0) @binding(_) var<storage, read> clock: Clock;
 @group(0) @binding(_) var<storage, read> facet_displacement: array<Vec>;

@@ -4,6 +4,8 @@
 //! `#import name` puts `shaders/lib/name.wgsl` (or `material/name.wgsl`) there once (`tensor`, `smoothing`,
 //! `potential` and `laws` are chosen by the method); `#if flag`, `#if !flag`, `#else`, `#endif` keep or drop lines by
 //! [`Method::flags`].
+//! `#import name if flag` (or `if !flag`) imports where the flag holds. `#import name KEY=word` puts the file there with each
+//! KEY of its text replaced, each time anew, since the words differ; an `if` may follow.
 //! A pass with one invocation for each of its rows defines `of_particle`, `of_facet` or `of_cell`; the entry point that
 //! calls it is made from the pass's declaration. `@binding(_)` is numbered in order of appearance, so bindings are written in WGSL only, and buffers
 //! are bound by the variables' names, which [`Shader::entry`] tells.
@@ -30,12 +32,14 @@ macro_rules! library {
 }
 
 library! {
-    lib: acceleration, body, body_index, body_options, bond, cell, compensated, contact_pair, coupling, course, course_integral, density,
-        descent, deviatoric_rate, displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow,
-        half_kick, hourglass_stiffness, inelastic, inverse, invocation,
-        kernel, linear_gradient, mass, memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, radial_return, real,
-        separation, shape, shape_columns, shape_node, stick, strain, tensor_1d, tensor_2d, tensor_3d,
-        unbalanced, visit_cells, volume, volumetric_stress, yielding;
+    lib: acceleration, adjoint_stress, artificial_stress, body, body_index, body_options, bond, cell, compensated,
+        constraint, contact_pair, coupling, course, course_integral, density, descent, deviatoric_rate,
+        displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow, half_kick,
+        hourglass_stiffness, inelastic, integrated, integrated_stress, inverse, invocation, kernel, linear_gradient, mass,
+        memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, plain_stress,
+        quadratic_gradient, radial_return, real, relaxation, separation, shape, shape_columns, shape_node, stick, strain,
+        temperature, tensor_1d, tensor_2d, tensor_3d, unbalanced, viscosity, visit_cells, volume, volumetric_stress,
+        yielding;
     contact: zones;
 }
 
@@ -107,7 +111,7 @@ fn composed(registry: &Registry, name: &str, source: &str, entry: Option<String>
     Ok(Composed { text: number_bindings(&composer.text), imports: composer.imported })
 }
 
-/// Whether `#if` may ask for a word.
+/// Whether shaders may ask for a word.
 fn is_flag(word: &str) -> bool {
     FLAGS.iter().any(|(flag, _)| *flag == word)
 }
@@ -120,6 +124,22 @@ struct Composer<'a> {
 }
 
 impl Composer<'_> {
+    /// Whether `flag` or `!flag` holds for the method; None for an unknown flag.
+    fn holds(&self, flag: &str) -> Option<bool> {
+        let (word, wanted) = flag.strip_prefix('!').map_or((flag, true), |word| (word, false));
+        is_flag(word).then(|| self.choice.flags.contains(&word) == wanted)
+    }
+
+    /// Keys and words that follow an import's name; None where a flag that it asks for does not hold.
+    fn values<'t>(&self, how: &[&'t str]) -> Result<Option<Vec<(&'t str, &'t str)>>, &'static str> {
+        let (values, holds) = match how {
+            [values @ .., "if", flag] => (values, self.holds(flag).ok_or("unknown flag")?),
+            values => (values, true),
+        };
+        let values: Option<Vec<_>> = values.iter().map(|value| value.split_once('=')).collect();
+        values.map(|values| holds.then_some(values)).ok_or("a word of an import has no key")
+    }
+
     fn add(&mut self, name: &str, source: &str) -> Result<(), String> {
         // For each open `#if`: whether its present branch is kept.
         let mut open: Vec<bool> = Vec::new();
@@ -128,24 +148,24 @@ impl Composer<'_> {
             let kept = open.iter().all(|&branch| branch);
             let words: Vec<&str> = line.split_whitespace().collect();
             match words[..] {
-                ["#if", flag] => {
-                    let (word, wanted) = flag.strip_prefix('!').map_or((flag, true), |word| (word, false));
-                    if !is_flag(word) {
-                        return wrong("unknown flag");
-                    }
-                    open.push(self.choice.flags.contains(&word) == wanted);
-                }
+                ["#if", flag] => match self.holds(flag) {
+                    Some(holds) => open.push(holds),
+                    None => return wrong("unknown flag"),
+                },
+                ["#import", import, ref how @ ..] => match self.values(how) {
+                    Err(what) => return wrong(what),
+                    Ok(Some(values)) if kept => match self.find(import) {
+                        Some((stem, text)) => self.import(stem, text, &values)?,
+                        None => return wrong("unknown import"),
+                    },
+                    Ok(_) => {}
+                },
                 ["#else"] => match open.last_mut() {
                     Some(branch) => *branch = !*branch,
                     None => return wrong("no open #if"),
                 },
                 ["#endif"] if open.pop().is_none() => return wrong("no open #if"),
                 ["#endif"] => {}
-                ["#import", import] if kept => match self.find(import) {
-                    Some((stem, text)) => self.import(stem, &text)?,
-                    None => return wrong("unknown import"),
-                },
-                ["#import", _] => {}
                 [word, ..] if word.starts_with('#') => return wrong("unknown directive"),
                 _ if kept => {
                     self.text.push_str(line);
@@ -174,12 +194,19 @@ impl Composer<'_> {
         Some((stem, file.text.to_string()))
     }
 
-    fn import(&mut self, stem: String, text: &str) -> Result<(), String> {
-        if self.imported.contains(&stem) {
+    /// Adds a file once, or each time with its keys replaced.
+    fn import(&mut self, stem: String, mut text: String, values: &[(&str, &str)]) -> Result<(), String> {
+        let known = self.imported.contains(&stem);
+        if known && values.is_empty() {
             return Ok(());
         }
-        self.imported.push(stem.clone());
-        self.add(&stem, text)
+        if !known {
+            self.imported.push(stem.clone());
+        }
+        for (key, word) in values {
+            text = text.replace(key, word);
+        }
+        self.add(&stem, &text)
     }
 }
 

@@ -23,6 +23,26 @@ fn imports_come_once_and_only_where_kept() {
 }
 
 #[test]
+fn an_import_may_ask_for_a_flag() {
+    let source = "#import smoothing if xsph\n#import real if !xsph\nx\n";
+    assert_eq!(composed(source, &["xsph"]), "kernel\nx\n");
+    assert!(composed(source, &[]).contains("alias real = f32;"));
+    // Nor is it kept in a branch that is not.
+    assert_eq!(composed("#if shear\n#import smoothing if xsph\n#endif\nx\n", &["xsph"]), "x\n");
+}
+
+#[test]
+fn an_import_with_keys_comes_each_time() {
+    let source =
+        "#import integrated QUANTITY=heat RATE=power TYPE=real\n#import integrated QUANTITY=strain RATE=speed TYPE=Mat if xsph\n";
+    let (one, both) = (composed(source, &[]), composed(source, &["xsph"]));
+    assert!(one.contains("fn advance_heat(") && one.contains("power: array<real>") && !one.contains("strain"), "{one}");
+    assert!(both.starts_with(&one) && both.contains("fn advance_strain(") && both.contains("speed: array<Mat>"), "{both}");
+    let word = ["QUANTITY", "RATE", "TYPE"].into_iter().find(|key| both.contains(key));
+    assert_eq!(word, None);
+}
+
+#[test]
 fn bindings_are_numbered_as_they_are_kept() {
     let source = "@group(0) @binding(_) a\n#if xsph\n@group(0) @binding(_) b\n#endif\n@group(0) @binding(_) c\n";
     assert_eq!(composed(source, &[]), "@group(0) @binding(0) a\n@group(0) @binding(1) c\n");
@@ -33,6 +53,18 @@ fn bindings_are_numbered_as_they_are_kept() {
 #[should_panic(expected = "test.wgsl line 2: unknown flag: #if sheer")]
 fn a_misspelt_flag_is_an_error() {
     composed("a\n#if sheer\n#endif\n", &[]);
+}
+
+#[test]
+#[should_panic(expected = "test.wgsl line 1: unknown flag: #import real if sheer")]
+fn a_misspelt_flag_of_an_import_is_an_error() {
+    composed("#import real if sheer\n", &[]);
+}
+
+#[test]
+#[should_panic(expected = "test.wgsl line 1: a word of an import has no key: #import real shear")]
+fn a_word_without_a_key_is_an_error() {
+    composed("#import real shear\n", &[]);
 }
 
 #[test]
