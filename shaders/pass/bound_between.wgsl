@@ -2,6 +2,7 @@
 // finds whether the list of contacts between groups still holds. Twin: src/pass/bound_between.rs
 #import invocation
 #import params
+#import largest
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 // One for each group, of the same step.
@@ -12,27 +13,6 @@
 @group(0) @binding(_) var<storage, read> listed_displacement: array<Vec>;
 #endif
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
-
-const REDUCTION_BLOCK: u32 = 256u;
-
-var<workgroup> shared_motion: array<vec4<real>, 256>;
-
-// Largest of each component over the workgroup; good in its first invocation. Two rounds of sixteen, as in bound_time_step.
-fn largest(local: u32, own: vec4<real>) -> vec4<real> {
-    shared_motion[local] = own;
-    workgroupBarrier();
-    if local < 16u {
-        for (var k = local + 16u; k < REDUCTION_BLOCK; k += 16u) {
-            shared_motion[local] = max(shared_motion[local], shared_motion[k]);
-        }
-    }
-    workgroupBarrier();
-    var motion = shared_motion[0];
-    for (var k = 1u; k < 16u; k += 1u) {
-        motion = max(motion, shared_motion[k]);
-    }
-    return motion;
-}
 
 @compute @workgroup_size(256)
 fn blocks(invocation: Invocation) {

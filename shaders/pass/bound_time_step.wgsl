@@ -4,6 +4,7 @@
 // step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
 #import invocation
 #import body
+#import largest
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
@@ -19,29 +20,6 @@
 @group(0) @binding(_) var<storage, read> velocity_gradient: array<Mat>;
 @group(0) @binding(_) var<storage, read> volumetric_strain: array<real>;
 #endif
-
-const REDUCTION_BLOCK: u32 = 256u;
-
-var<workgroup> shared_bound: array<vec4<real>, 256>;
-
-// Largest of each component over the workgroup; good in its first invocation.
-//
-// Two rounds of sixteen, not eight of two: a software driver pays for every barrier.
-fn largest(local: u32, own: vec4<real>) -> vec4<real> {
-    shared_bound[local] = own;
-    workgroupBarrier();
-    if local < 16u {
-        for (var k = local + 16u; k < REDUCTION_BLOCK; k += 16u) {
-            shared_bound[local] = max(shared_bound[local], shared_bound[k]);
-        }
-    }
-    workgroupBarrier();
-    var bound = shared_bound[0];
-    for (var k = 1u; k < 16u; k += 1u) {
-        bound = max(bound, shared_bound[k]);
-    }
-    return bound;
-}
 
 @compute @workgroup_size(256)
 fn blocks(invocation: Invocation) {

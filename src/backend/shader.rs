@@ -35,7 +35,7 @@ library! {
     lib: acceleration, adjoint_stress, artificial_stress, body, body_index, body_options, bond, cell, compensated,
         constraint, contact_pair, coupling, course, course_integral, density, descent, deviatoric_rate,
         displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow, half_kick,
-        hourglass_stiffness, inelastic, integrated, integrated_stress, inverse, invocation, kernel, linear_gradient, mass,
+        hourglass_stiffness, inelastic, integrated, integrated_stress, inverse, invocation, kernel, largest, linear_gradient, mass,
         memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, plain_stress,
         quadratic_gradient, radial_return, real, relaxation, separation, shape, shape_columns, shape_node, stick, strain,
         temperature, tensor_1d, tensor_2d, tensor_3d, unbalanced, viscosity, visit_cells, volume, volumetric_stress,

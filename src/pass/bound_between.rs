@@ -2,9 +2,8 @@
 //! finds whether the list of contacts between groups still holds. Twin: shaders/pass/bound_between.wgsl
 
 use super::Stage;
+use super::bound_time_step::largest;
 use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
-use super::write::fill;
-use crate::fields::REDUCTION_BLOCK;
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -21,18 +20,8 @@ pub const PASS: Declaration = {
 };
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
-    fill!(state, block_bound, |block, slot| {
-        let first = block * REDUCTION_BLOCK;
-        let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
-        *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, motion_of(state, a)));
-    });
-    let motion = state.columns.block_bound.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
+    let motion = largest(state, motion_of);
     agree(state, motion);
-}
-
-#[inline(always)]
-fn larger<R: Real>(a: [R; 4], b: [R; 4]) -> [R; 4] {
-    [a[0].max(b[0]), a[1].max(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
 /// Squared displacement since the list was built, and squared speed, where they stand in the bound of a group.

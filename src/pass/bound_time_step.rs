@@ -30,13 +30,18 @@ pub const PASS: Declaration = {
 };
 
 pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
+    let bound = largest(state, bound_of);
+    clock(state, bound);
+}
+
+/// The largest of each of four numbers over all particles.
+pub(super) fn largest<S: Space>(state: &mut State<S>, of: fn(&State<S>, usize) -> [S::Real; 4]) -> [S::Real; 4] {
     fill!(state, block_bound, |block, slot| {
         let first = block * REDUCTION_BLOCK;
         let last = (first + REDUCTION_BLOCK).min(state.params.count as usize);
-        *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, bound_of(state, a)));
+        *slot = (first..last).fold([S::Real::of(0.0); 4], |bound, a| larger(bound, of(state, a)));
     });
-    let bound = state.columns.block_bound.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block));
-    clock(state, bound);
+    state.columns.block_bound.iter().fold([S::Real::of(0.0); 4], |bound, &block| larger(bound, block))
 }
 
 #[inline(always)]
