@@ -82,6 +82,12 @@ pub struct Params<R> {
     pub cfl: R,
     /// Fixed time step, or 0.
     pub fixed_step: R,
+    /// Longest step of the bodies when unstressed, a time; 0 if it is not known.
+    pub rest_step: R,
+    /// Time that divides the time between any two outputs; 0 if there is none.
+    pub interval: R,
+    /// Step times angular frequency up to which the integrator is trusted; 0 if it has no limit.
+    pub stable: R,
     /// Out-of-balance force over the force scale at which a load step ends.
     pub residual: R,
     /// Part of the load that is added in a unit of pseudo-time.
@@ -121,7 +127,8 @@ pub struct Body<R> {
     /// Speed of longitudinal waves.
     pub sound_speed: R,
     pub smoothing_length: R,
-    pub padding: R,
+    /// Highest angular frequency of the body's particles when unstressed, 1/time; 0 where none is known.
+    pub frequency: R,
     /// Numbers of the body's laws: those of a role begin at [`crate::material::Role::first`], in the order of its declaration.
     pub numbers: [R; NUMBERS],
 }
@@ -278,6 +285,13 @@ pub struct Clock<R> {
     pub rebuild: u32,
     /// Times that the list was built.
     pub lists_built: u32,
+    /// Times that the step changed by more than a hundredth.
+    pub changes: u32,
+    /// Length of the step before, kept from one segment to the next.
+    pub held: R,
+    /// 1 if the last segment came to its end, 0 if it was broken off after so many steps: then the next one goes on with
+    /// the same step.
+    pub arrived: u32,
     /// What went wrong, as [`Fault`] numbers it; 0 while all is well.
     pub fault: u32,
     /// Out-of-balance force over the force scale, where equilibrium is sought.
@@ -297,6 +311,9 @@ impl<R: Real> Clock<R> {
             running: self.running,
             rebuild: self.rebuild,
             lists_built: self.lists_built,
+            changes: self.changes,
+            held: self.held.f64(),
+            arrived: self.arrived,
             fault: self.fault,
             residual: self.residual.f64(),
         }

@@ -8,9 +8,11 @@ mod between;
 mod contact;
 mod corrected_kernel;
 mod eulerian;
+mod limit;
 mod total_lagrangian;
 
 pub use between::{Act, Steps, refresh, steps};
+pub use limit::{amplification, longest_step};
 
 use crate::fields::Field;
 use crate::method::{Formulation, Integrator, Method};

@@ -51,6 +51,9 @@ struct Params {
     artificial_weight: real,
     cfl: real,
     fixed_step: real,
+    rest_step: real,
+    interval: real,
+    stable: real,
     residual: real,
     load_rate: real,
 }
@@ -67,7 +70,7 @@ struct Body {
     yield_stress: real,
     sound_speed: real,
     smoothing_length: real,
-    padding: real,
+    frequency: real,
     numbers: array<real, 32>,
 }
 
@@ -115,6 +118,9 @@ struct Clock {
     running: u32,
     rebuild: u32,
     lists_built: u32,
+    changes: u32,
+    held: real,
+    arrived: u32,
     fault: u32,
     residual: real,
 }

@@ -62,6 +62,7 @@ fn agree(motion: vec4<real>) {
         agreed.running = min(agreed.running, other.running);
         agreed.fault = select(agreed.fault, other.fault, agreed.fault == 0u);
         agreed.lists_built = max(agreed.lists_built, other.lists_built);
+        agreed.changes = max(agreed.changes, other.changes);
     }
     if clock.fault != 0u {
         agreed.fault = clock.fault;
@@ -76,6 +77,7 @@ fn agree(motion: vec4<real>) {
     clock = agreed;
     for (var k = 0u; k < groups; k += 1u) {
         group_clocks[k].step = agreed.step;
+        group_clocks[k].held = agreed.step;
         group_clocks[k].running = agreed.running;
         group_clocks[k].fault = agreed.fault;
     }

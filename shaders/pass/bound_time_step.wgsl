@@ -1,10 +1,12 @@
 // Ends a step: advances the clock, finds the next step, whether the neighbour list still holds, and faults.
 // Twin: src/pass/bound_time_step.rs
 //
-// step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
+// step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992, with c as the present deformation has it,
+// no longer than the integrator bears; a segment is parted into equal steps.
 #import invocation
 #import body
 #import largest
+#import stiffening if finite_strain
 
 @group(0) @binding(_) var<storage, read_write> clock: Clock;
 @group(0) @binding(_) var<storage, read_write> block_bound: array<vec4<real>>;
@@ -46,7 +48,14 @@ fn bound_of(a: u32) -> vec4<real> {
 #endif
     let signal = own.sound_speed * (1.0 + 0.6 * params.alpha) + 0.6 * params.beta * h * compression;
     let pull = inner(acceleration[a], acceleration[a]);
-    var rate = max(signal / h, sqrt(sqrt(pull) / h));
+    var waves = signal / h;
+#if finite_strain
+    if params.stable > 0.0 {
+        waves = max(waves, params.cfl / params.stable * own.frequency * (1.0 + 0.6 * params.alpha));
+    }
+    waves *= sqrt(max(stiffening(own, displacement_gradient[a]), 1.0));
+#endif
+    var rate = max(waves, sqrt(sqrt(pull) / h));
 #if facets
     rate = sqrt(rate * rate + params.contact_rate);
 #endif
@@ -87,10 +96,18 @@ fn hidden_number(x: real) -> real {
     return bitcast<real>(bitcast<u32>(x) ^ params.zero);
 }
 
+#if finite_strain
+const HOLDS = true;
+#else
+const HOLDS = false;
+#endif
+const SLACK: real = 1.05;
+const RUNG: real = 0.8408964152537146;
+
 fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
     var next = before;
     // The first call of a segment comes before any step: it advances no clock and only finds the first step.
-    if next.step > 0.0 {
+    if before.step > 0.0 {
         // The sum keeps its rounding error as in compensated_add.
         let corrected = next.step - next.elapsed_carry;
         let total = hidden_number(next.elapsed + corrected);
@@ -108,27 +125,68 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
         next.fault = u32(bound.w);
     }
     let left = next.duration - next.elapsed;
-    var step = params.fixed_step;
-    if step <= 0.0 {
-        step = params.cfl / bound.x;
-    }
     // A remainder below this is the rounding error of the sum of steps, not time that is left.
-    if next.fault != 0u || next.steps_left == 0u || left <= 1e-5 * step {
+    let arrived = left <= 1e-4 * before.step;
+    if before.step > 0.0 {
+        next.arrived = u32(arrived);
+    }
+    if next.fault != 0u || next.steps_left == 0u || arrived {
         next.running = 0u;
         return next;
     }
-    // The last two steps share the time that is left, so that the last one is not much shorter than the others.
-    if left <= step * 1.00001 {
-        step = left;
-    } else if left < 2.0 * step && params.fixed_step == 0.0 {
-        step = left * 0.5;
+    let longest = params.cfl / bound.x;
+    var held = next.held;
+    if before.step <= 0.0 && next.arrived != 0u {
+        held = 0.0;
     }
-    next.step = step;
+    if params.fixed_step > 0.0 {
+        next.step = select(params.fixed_step, left, left <= params.fixed_step * 1.00001);
+    } else if HOLDS && held > 0.0 && held <= SLACK * longest {
+        next.step = shared(left, ceil(left / held - 0.01));
+    } else {
+        next.step = shared(left, parts(left, params.interval, rung(longest)));
+    }
+    if abs(next.step - next.held) > 0.01 * next.held && next.held > 0.0 {
+        next.changes += 1u;
+    }
+    next.held = next.step;
 #if listed_again
-    let ahead = sqrt(bound.y) + sqrt(bound.z) * step;
+    let ahead = sqrt(bound.y) + sqrt(bound.z) * next.step;
     next.rebuild = u32(ahead > params.slack);
 #else
     next.rebuild = 0u;
 #endif
     return next;
+}
+
+// A part of the time that is left; all of it if it is in no more than one.
+fn shared(left: real, parts: real) -> real {
+    return select(left, left / parts, parts > 1.5);
+}
+
+// The longest of the lengths that a held step has.
+fn rung(longest: real) -> real {
+    var step = params.rest_step;
+    if !HOLDS || step <= 0.0 {
+        return longest;
+    }
+    for (var k = 0u; k < 200u; k++) {
+        if step <= SLACK * longest {
+            return step;
+        }
+        step *= RUNG;
+    }
+    return longest;
+}
+
+// In how many steps to go what is left: as many from output to output as everywhere else.
+fn parts(left: real, interval: real, longest: real) -> real {
+    var intervals: real = 0.0;
+    if interval > 0.5 * longest {
+        intervals = round(left / interval);
+    }
+    if intervals > 0.5 && abs(left - intervals * interval) < 1e-4 * interval {
+        return intervals * max(ceil(interval / longest - 1e-5), 1.0);
+    }
+    return ceil(left / longest - 1e-5);
 }

@@ -2,6 +2,7 @@
 
 pub mod cpu;
 pub mod device;
+pub mod frequency;
 pub mod gpu;
 mod machine;
 pub mod shader;
@@ -69,7 +70,12 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
 
 /// The first states of all members of a run.
 fn states<S: Space>(scene: &Scene, compensated: bool) -> Vec<State<S>> {
-    scene.members().map(|member| member.state::<S>(compensated)).collect()
+    let state = |member: &Scene| {
+        let mut state = member.state::<S>(compensated);
+        frequency::bound(member, &mut state);
+        state
+    };
+    scene.members().map(state).collect()
 }
 
 /// Smallest quasi_static.residual that f32 is trusted with: rounding of the strains alone leaves 1e-6 and more.

@@ -37,7 +37,8 @@ library! {
         displacement_difference, facet, facet_lever, facet_pair, facet_touched, finite_return, flow, half_kick,
         hourglass_stiffness, inelastic, integrated, integrated_stress, inverse, invocation, kernel, largest, linear_gradient, mass,
         memory, mirror, moving_velocity, obstacle, of_roles, own_neighbor, pair, pair_velocity, params, plain_stress,
-        quadratic_gradient, radial_return, real, relaxation, separation, shape, shape_columns, shape_node, stick, strain,
+        quadratic_gradient, radial_return, real, relaxation, separation, shape, shape_columns, shape_node, stick, stiffness,
+        strain,
         temperature, tensor_1d, tensor_2d, tensor_3d, unbalanced, viscosity, visit_cells, volume, volumetric_stress,
         yielding;
     contact: zones;
@@ -183,6 +184,7 @@ impl Composer<'_> {
             "smoothing" => return Some((import.into(), self.choice.smoothing.to_string())),
             "potential" => return Some((import.into(), contacts::text(self.choice.potentials))),
             "laws" => return Some((import.into(), laws::text(self.choice.laws))),
+            "stiffening" => return Some((import.into(), laws::stiffening(self.choice.laws))),
             "pressures" | "strengths" | "heats" => return Some((import.into(), laws::over_role(import, self.choice.laws)?)),
             "tensor" => format!("tensor_{}d", self.choice.dimension),
             _ => import.to_string(),

@@ -10,6 +10,7 @@
 pub mod inelastic;
 pub mod law;
 mod point;
+pub mod stiffening;
 pub mod strain;
 pub mod yielding;
 
@@ -150,7 +151,7 @@ impl<R: Real> Body<R> {
             yield_stress: real(self.yield_stress),
             sound_speed: real(self.sound_speed),
             smoothing_length: real(self.smoothing_length),
-            padding: real(self.padding),
+            frequency: real(self.frequency),
             numbers: self.numbers.map(real),
         }
     }
@@ -170,6 +171,22 @@ pub fn first_piola<S: Space>(body: &Body<S::Real>, h: S::Mat, memory: S::Sym) ->
         NEO_HOOKEAN => neo_hookean::first_piola::<S>(body, h),
         MAXWELL => maxwell::first_piola::<S>(body, h, memory),
         _ => inelastic::first_piola::<S>(body, h, memory, kirchhoff(body, strain::volume_change::<S>(h))),
+    }
+}
+
+/// By how much the deformation 1 + H has raised the largest stiffness against plane waves; see [`stiffening`]. Written for the
+/// laws of a scene by `src/backend/shader/laws.rs`, as [`first_piola`].
+#[inline(always)]
+pub fn stiffening<S: Space>(body: &Body<S::Real>, h: S::Mat) -> S::Real {
+    let change = strain::volume_change::<S>(h);
+    let denser = stiffening::denser(change);
+    match body.whole {
+        ST_VENANT_KIRCHHOFF => stiffening::by_stretch::<S>(h),
+        0 => stiffening::by_volume::<S>(body, h, kirchhoff(body, change), kirchhoff(body, denser)),
+        _ => {
+            let mean = |change| hartmann_neff::volumetric_stress(body.bulk_modulus, change);
+            stiffening::by_volume::<S>(body, h, mean(change), mean(denser))
+        }
     }
 }
 

@@ -41,6 +41,7 @@ fn agree<S: Space>(state: &mut State<S>, motion: [S::Real; 4]) {
         agreed.running = agreed.running.min(group.running);
         agreed.fault = if agreed.fault == 0 { group.fault } else { agreed.fault };
         agreed.lists_built = agreed.lists_built.max(group.lists_built);
+        agreed.changes = agreed.changes.max(group.changes);
     }
     if state.clock.fault != 0 {
         (agreed.fault, agreed.running) = (state.clock.fault, 0);
@@ -50,5 +51,6 @@ fn agree<S: Space>(state: &mut State<S>, motion: [S::Real; 4]) {
     state.clock = agreed;
     for group in &mut state.group_clocks {
         (group.step, group.running, group.fault) = (agreed.step, agreed.running, agreed.fault);
+        group.held = agreed.step;
     }
 }

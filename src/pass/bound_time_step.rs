@@ -1,13 +1,18 @@
 //! Ends a step: advances the clock, finds the next step, whether the neighbour list still holds, and faults.
 //! Twin: shaders/pass/bound_time_step.wgsl
 //!
-//! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992.
+//! step = cfl min(h/(c (1 + 0.6 alpha) + 0.6 beta h |tr L|), sqrt(h/|a|)), Monaghan 1992. At finite strain c is that of the
+//! present deformation, and the step never longer than the integrator bears at the body's highest frequency.
+//!
+//! A segment is parted into equal steps: one that swings in time with the outputs feeds the fastest oscillations of an
+//! integrator that keeps energy. At finite strain the step is held until the bound falls below it.
 
 use super::Stage;
 use super::declaration::{Declaration, Domain, Entry, Runs, always, when};
 use super::write::fill;
 use crate::fields::REDUCTION_BLOCK;
-use crate::rows::Fault;
+use crate::material;
+use crate::rows::{Fault, Params};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -58,7 +63,14 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let compression = if finite_strain { zero } else { S::trace(columns.velocity_gradient[a]).abs() };
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
     let pull = S::inner(columns.acceleration[a], columns.acceleration[a]);
-    let mut rate = (signal / h).max((pull.sqrt() / h).sqrt());
+    let mut waves = signal / h;
+    if finite_strain {
+        if params.stable > zero {
+            waves = waves.max(params.cfl / params.stable * body.frequency * (one + part * params.alpha));
+        }
+        waves = waves * material::stiffening::<S>(body, columns.displacement_gradient[a]).max(one).sqrt();
+    }
+    let mut rate = waves.max((pull.sqrt() / h).sqrt());
     if state.method.facets() {
         rate = (rate * rate + params.contact_rate).sqrt();
     }
@@ -81,10 +93,11 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
 }
 
 fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
-    let listed_once = !state.method.listed_again();
+    let (listed_once, holds) = (!state.method.listed_again(), state.method.finite_strain());
     let (params, clock) = (&state.params, &mut state.clock);
     // The first call of a segment comes before any step: it advances no clock and only finds the first step.
-    if clock.step > S::Real::of(0.0) {
+    let (before, zero) = (clock.step, S::Real::of(0.0));
+    if before > zero {
         let corrected = clock.step - clock.elapsed_carry;
         let total = clock.elapsed + corrected;
         clock.elapsed_carry = (total - clock.elapsed) - corrected;
@@ -97,21 +110,70 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
         clock.fault = bound[3].f64() as u32;
     }
     let left = clock.duration - clock.elapsed;
-    let step = if params.fixed_step > S::Real::of(0.0) { params.fixed_step } else { params.cfl / bound[0] };
     // A remainder below this is the rounding error of the sum of steps, not time that is left.
-    let nothing = S::Real::of(1e-5) * step;
-    if clock.fault != 0 || clock.steps_left == 0 || left <= nothing {
+    let arrived = left <= S::Real::of(1e-4) * before;
+    clock.arrived = if before > zero { u32::from(arrived) } else { clock.arrived };
+    if clock.fault != 0 || clock.steps_left == 0 || arrived {
         clock.running = 0;
         return;
     }
-    // The last two steps share the time that is left, so that the last one is not much shorter than the others.
-    clock.step = if left <= step * S::Real::of(1.00001) {
-        left
-    } else if left < S::Real::of(2.0) * step && params.fixed_step == S::Real::of(0.0) {
-        left * S::Real::of(0.5)
+    let longest = if params.fixed_step > zero { params.fixed_step } else { params.cfl / bound[0] };
+    let held = if before > zero || clock.arrived == 0 { clock.held } else { zero };
+    clock.step = if params.fixed_step > zero {
+        fixed(left, longest)
+    } else if holds && held > zero && held <= S::Real::of(SLACK) * longest {
+        // In groups the step of another may have been taken: then what is left is no multiple of it.
+        shared(left, -(S::Real::of(0.01) - left / held).floor())
     } else {
-        step
+        let longest = if holds { rung(params, longest) } else { longest };
+        shared(left, parts(left, params.interval, longest))
     };
+    if (clock.step - clock.held).abs() > S::Real::of(0.01) * clock.held && clock.held > zero {
+        clock.changes += 1;
+    }
+    clock.held = clock.step;
     let ahead = bound[1].sqrt() + bound[2].sqrt() * clock.step;
     clock.rebuild = u32::from(!listed_once && ahead > params.slack);
+}
+
+/// By what part a held step may be above its bound.
+const SLACK: f64 = 1.05;
+/// Ratio of the lengths from which a step that is held is chosen, 2^(-1/4).
+const RUNG: f64 = 0.840_896_415_253_714_6;
+
+/// The step that is asked for, or the time that is left if that is less.
+fn fixed<R: Real>(left: R, step: R) -> R {
+    if left <= step * R::of(1.00001) { left } else { step }
+}
+
+/// A part of the time that is left; all of it if it is in no more than one.
+fn shared<R: Real>(left: R, parts: R) -> R {
+    if parts > R::of(1.5) { left / parts } else { left }
+}
+
+/// The longest of the lengths that a held step has, of which one is that of the unstressed bodies: a bound that moves a little
+/// from output to output then leaves the step as it is.
+fn rung<R: Real>(params: &Params<R>, longest: R) -> R {
+    let mut step = params.rest_step;
+    if step <= R::of(0.0) {
+        return longest;
+    }
+    for _ in 0..200 {
+        if step <= R::of(SLACK) * longest {
+            return step;
+        }
+        step = step * R::of(RUNG);
+    }
+    longest
+}
+
+/// In how many steps to go what is left: as many from output to output as everywhere else, where outputs have a time in
+/// common that is not much shorter than a step.
+fn parts<R: Real>(left: R, interval: R, longest: R) -> R {
+    let whole = |x: R| -(-x + R::of(1e-5)).floor();
+    let intervals = if interval > R::of(0.5) * longest { (left / interval).round() } else { R::of(0.0) };
+    if intervals > R::of(0.5) && (left - intervals * interval).abs() < R::of(1e-4) * interval {
+        return intervals * whole(interval / longest).max(R::of(1.0));
+    }
+    whole(left / longest)
 }

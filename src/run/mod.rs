@@ -5,7 +5,7 @@ mod files;
 mod summary;
 
 pub use files::{Files, folder};
-pub use summary::{Stopwatch, Summary};
+pub use summary::{StepLengths, Stopwatch, Summary};
 
 use checkpoint::Checkpoint;
 
@@ -14,6 +14,7 @@ use crate::fields::Field;
 use crate::observable::{Moment, Observer, Table, Value, fields_read, observers, profile};
 use crate::rows::Fault;
 use crate::scene::Scene;
+use crate::scene::interval::ROUNDING;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -104,9 +105,9 @@ struct Schedule {
 
 impl Schedule {
     fn new(scene: &Scene) -> Self {
-        let (file, output) = (&scene.file, &scene.file.output);
+        let file = &scene.file;
         Self {
-            series: output.series.unwrap_or(file.duration / 100.0),
+            series: file.rows(),
             frames: file.frames(),
             duration: file.duration,
             load_steps: file.quasi_static.as_ref().map_or(0, |q| q.load_steps),
@@ -126,8 +127,10 @@ impl Schedule {
         if self.load_steps > 0 {
             return self.load_events();
         }
-        let rounding = 1e-9 * self.duration;
-        let count = |interval: f64| (self.duration / interval + 1e-9) as u64;
+        // Two times that differ by rounding are one: the last row at the end may be a typed decimal of a third.
+        let shortest = [self.series, self.frames].into_iter().filter(|&t| t > 0.0).fold(self.duration, f64::min);
+        let rounding = ROUNDING * shortest;
+        let count = |interval: f64| (self.duration / interval + ROUNDING) as u64;
         let every = |interval: f64| -> Vec<f64> {
             if interval == 0.0 {
                 return Vec::new();
@@ -138,6 +141,10 @@ impl Schedule {
         let mut times: Vec<f64> = rows.iter().chain(&frames).copied().chain([self.duration]).collect();
         times.sort_by(f64::total_cmp);
         times.dedup_by(|a, b| (*a - *b).abs() < rounding);
+        // Of two times that are one the earlier is left.
+        if let Some(end) = times.last_mut() {
+            *end = self.duration;
+        }
         let due = |interval: f64, t: f64| {
             let nearest = (t / interval).round().min(count(interval) as f64) * interval;
             (nearest - t).abs() < rounding
@@ -164,6 +171,7 @@ struct Run<'a> {
     time: f64,
     steps: u32,
     lists: u32,
+    lengths: StepLengths,
     bar: ProgressBar,
     watch: Stopwatch,
 }
@@ -194,6 +202,7 @@ impl<'a> Run<'a> {
             time: 0.0,
             steps: 0,
             lists: 0,
+            lengths: StepLengths::default(),
             bar,
             watch: Stopwatch::start(),
         }
@@ -235,6 +244,7 @@ impl<'a> Run<'a> {
         loop {
             let clock = self.backend.advance().map_err(|e| self.fail(&e))?;
             (self.steps, self.lists) = (clock.steps_done, clock.lists_built);
+            self.lengths.see(&clock);
             let now = self.time + clock.elapsed;
             self.bar.set_position((1000.0 * now / self.scene.file.duration) as u64);
             self.bar.set_message(format!("t = {now:.4e}, step {}", self.steps));
@@ -315,8 +325,8 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
-        let summary =
-            Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, &self.watch).map_err(|e| self.fail(&e))?;
+        let summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.lengths, &self.watch)
+            .map_err(|e| self.fail(&e))?;
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

@@ -3,6 +3,7 @@
 use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
 use crate::fields::Field;
+use crate::rows::Clock;
 use crate::scene::Scene;
 use crate::step;
 use serde_json::json;
@@ -21,6 +22,39 @@ impl Stopwatch {
     }
 }
 
+/// How long the steps of a run were.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLengths {
+    /// Times; infinity and 0 before the first step.
+    pub shortest: f64,
+    pub longest: f64,
+    /// How often a step was more than a hundredth longer or shorter than the one before.
+    pub changes: u32,
+}
+
+impl Default for StepLengths {
+    fn default() -> Self {
+        Self { shortest: f64::INFINITY, longest: 0.0, changes: 0 }
+    }
+}
+
+impl StepLengths {
+    /// What a clock says after some steps.
+    pub fn see(&mut self, clock: &Clock<f64>) {
+        if clock.held > 0.0 {
+            (self.shortest, self.longest) = (self.shortest.min(clock.held), self.longest.max(clock.held));
+        }
+        self.changes = clock.changes;
+    }
+
+    fn text(&self) -> String {
+        if self.longest == 0.0 {
+            return String::new();
+        }
+        format!(" of {:.4e} to {:.4e}, changed {} times", self.shortest, self.longest, self.changes)
+    }
+}
+
 /// Cost of a run.
 #[derive(Debug, Clone)]
 pub struct Summary {
@@ -30,6 +64,7 @@ pub struct Summary {
     pub neighbors: f64,
     pub steps: u32,
     pub lists_built: u32,
+    pub lengths: StepLengths,
     pub passes: Vec<&'static str>,
     pub fields: Vec<&'static str>,
     pub bytes: u64,
@@ -47,6 +82,7 @@ impl Summary {
         backend: &mut dyn Backend,
         steps: u32,
         lists_built: u32,
+        lengths: StepLengths,
         watch: &Stopwatch,
     ) -> Result<Self, String> {
         let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
@@ -61,6 +97,7 @@ impl Summary {
             neighbors: counts[&Field::NeighborCount].iter().sum::<f64>() / particles as f64,
             steps,
             lists_built,
+            lengths,
             passes: passes.iter().map(|pass| pass.name()).collect(),
             fields: scene.fields().iter().map(|f| f.name()).collect(),
             bytes: backend.bytes(),
@@ -79,13 +116,14 @@ impl Summary {
         format!(
             "{} particles with {:.1} neighbours, {} passes a step, {:.0} bytes a particle\n\
              {}\n\
-             {} steps, {} neighbour lists, {:.2} s: {:.3e} particle-updates a second",
+             {} steps{}, {} neighbour lists, {:.2} s: {:.3e} particle-updates a second",
             self.particles,
             self.neighbors,
             self.passes.len(),
             self.bytes as f64 / self.particles as f64,
             self.device,
             self.steps,
+            self.lengths.text(),
             self.lists_built,
             self.seconds,
             self.updates_per_second(),
@@ -96,7 +134,8 @@ impl Summary {
         let value = json!({
             "scene": scene.name, "variant": scene.variant, "title": scene.file.title, "version": env!("CARGO_PKG_VERSION"),
             "device": self.device, "particles": self.particles, "neighbors": self.neighbors, "steps": self.steps,
-            "lists_built": self.lists_built, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
+            "lists_built": self.lists_built, "shortest_step": self.lengths.shortest, "longest_step": self.lengths.longest,
+            "changes_of_step": self.lengths.changes, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
             "seconds": self.seconds, "processor_seconds": self.processor_seconds,
             "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
         });

@@ -540,7 +540,8 @@ pub struct Symmetry {
 #[serde(default, deny_unknown_fields)]
 pub struct Time {
     pub integrator: Integrator,
-    /// Time step over h/c.
+    /// Time step over h/c, where c is that of the present deformation. At finite strain a step is never longer than 0.8 of what
+    /// the integrator bears at the highest frequency.
     pub cfl: f64,
     /// A fixed time step, in place of the one that `cfl` gives.
     pub step: Option<f64>,

@@ -10,6 +10,7 @@ mod cost;
 pub mod facets;
 pub mod file;
 mod groups;
+pub mod interval;
 pub mod material;
 mod members;
 mod model;

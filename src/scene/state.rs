@@ -324,6 +324,9 @@ impl Scene {
             artificial_weight: real(f.smoothing.value(self.artificial_spacing, h, self.dimension())),
             cfl: real(self.file.time.cfl),
             fixed_step: real(self.file.time.step.unwrap_or(0.0)),
+            rest_step: real(0.0),
+            interval: real(self.file.interval()),
+            stable: real(0.0),
             residual: real(self.file.quasi_static.as_ref().map_or(0.0, |q| q.residual)),
             load_rate: real(if self.file.quasi_static.is_some() { 1.0 / self.file.duration } else { 0.0 }),
         }

@@ -15,7 +15,7 @@ mod simulate;
 mod study;
 mod zone;
 
-pub use limits::{Limit, Secular, amplification, limits, longest_step, secular};
+pub use limits::{Limit, Secular, limits, secular};
 pub use points::chosen;
 pub use setting::Setting;
 pub use simulate::{Measured, simulate};

@@ -46,7 +46,7 @@ fn params_mirror_the_shader_s() {
         planes, count, first, chunk, list_capacity, cells_x, cells_y, cells_z, cell_total, plane_count, body_count,
         artificial_exponent, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, surface_count, corner_count, zero, origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z,
         body_force_x, body_force_y, body_force_z, normalisation, reach, contact_reach, facet_reach, contact_rate, contact_apart, slack, hourglass, alpha, beta, softening, smoothing_weight,
-        artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate,
+        artificial_epsilon, artificial_weight, cfl, fixed_step, rest_step, interval, stable, residual, load_rate,
     );
     // Bound alone, in a buffer rounded up to the alignment of a vec4.
     assert_eq!(size_of::<Params<f32>>().next_multiple_of(16), span("Params") as usize);
@@ -56,7 +56,7 @@ fn params_mirror_the_shader_s() {
 fn bodies_mirror_the_shader_s() {
     assert_mirrors!(Body:
         whole, pressure, strength, heat, density, bulk_modulus, shear_modulus, youngs_modulus, yield_stress, sound_speed,
-        smoothing_length, padding, numbers);
+        smoothing_length, frequency, numbers);
     assert_eq!(size_of::<Body<f32>>(), span("Body") as usize);
 }
 
@@ -87,7 +87,8 @@ fn contacts_of_surfaces_mirror_the_shader_s() {
 #[test]
 fn clocks_mirror_the_shader_s() {
     assert_mirrors!(Clock:
-        start, elapsed, elapsed_carry, step, duration, steps_left, steps_done, running, rebuild, lists_built, fault, residual,
+        start, elapsed, elapsed_carry, step, duration, steps_left, steps_done, running, rebuild, lists_built, changes, held, arrived,
+        fault, residual,
     );
     assert_eq!(size_of::<Clock<f32>>(), span("Clock") as usize);
 }

@@ -1,5 +1,6 @@
 //! The GPU beside its twins, and the shaders that it runs.
 
+mod frequency;
 mod mirror;
 pub mod parity;
 mod precision;

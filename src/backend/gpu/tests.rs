@@ -69,7 +69,7 @@ fn state(side: usize) -> State<Plane<f32>> {
 
 const HEADER: &str = "
     struct Clock { start: f32, elapsed: f32, carry: f32, step: f32, duration: f32, steps_left: u32, steps_done: u32,
-        running: u32, rebuild: u32, lists_built: u32, fault: u32, residual: f32 }
+        running: u32, rebuild: u32, lists_built: u32, changes: u32, held: f32, arrived: u32, fault: u32, residual: f32 }
     struct Params { planes: array<vec4<f32>, 3>, count: u32, first: u32, chunk: u32, list_capacity: u32 }
     @group(0) @binding(0) var<uniform> params: Params;
     struct At { @builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,

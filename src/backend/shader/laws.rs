@@ -144,6 +144,31 @@ pub(super) fn text(laws: &[Law]) -> String {
     text
 }
 
+/// Text of `#import stiffening`. Twin: `stiffening` in src/material/mod.rs
+pub(super) fn stiffening(laws: &[Law]) -> String {
+    let has = |law: Law| laws.contains(&law);
+    let mut text = String::from("#import stiffness\n");
+    let mut cases = String::new();
+    let by_volume = |mean: &str| format!("by_volume(body, h, {mean}change), {mean}denser(change)))");
+    if has(Law::StVenantKirchhoff) {
+        cases += &format!("        case {}u: {{ return by_stretch(h); }}\n", Law::StVenantKirchhoff.number());
+    }
+    let elastic = [Law::NeoHookean, Law::Maxwell].into_iter().filter(|&law| has(law)).map(|law| format!("{}u", law.number()));
+    let elastic = elastic.collect::<Vec<_>>().join(", ");
+    if !elastic.is_empty() {
+        text += "#import volumetric_stress\n";
+        let answer = by_volume("volumetric_stress(body.bulk_modulus, ");
+        cases += &format!("        case {elastic}: {{ return {answer}; }}\n");
+    }
+    if laws.iter().any(|law| law.role() == Role::Pressure) {
+        text += "#import pressures\n";
+        cases += &format!("        case 0u: {{ return {}; }}\n", by_volume("kirchhoff(body, "));
+    }
+    text + "\nfn stiffening(body: Body, h: Mat) -> real {\n    let change = volume_change(h);\n    switch body.whole {\n"
+        + &cases
+        + "        default: { return 1.0; }\n    }\n}\n"
+}
+
 fn body(function: &Function, answers: &[Answer]) -> String {
     let call = |answer: &Answer| match function.without_memory {
         Some(value) if !answer.memory => format!("return {value};"),

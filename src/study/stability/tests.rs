@@ -1,6 +1,7 @@
 use super::*;
 use crate::method::Integrator;
 use crate::scene::Scene;
+use crate::step::{amplification, longest_step};
 
 const BASE: &str = "
     title = 'a lattice'

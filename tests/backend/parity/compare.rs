@@ -144,7 +144,7 @@ fn integers<S: Space>(state: &State<S>, name: &str, sorted: bool) -> Option<Vec<
 }
 
 fn counts_of<R>(c: &Clock<R>) -> Vec<u32> {
-    vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.fault]
+    vec![c.steps_left, c.steps_done, c.running, c.rebuild, c.lists_built, c.changes, c.arrived, c.fault]
 }
 
 /// Places of the neighbours kept, each particle's in order.
@@ -166,6 +166,7 @@ fn numbers<S: Space>(state: &State<S>, name: &str) -> Vec<(String, Vec<f64>)> {
                 (ELAPSED, c.elapsed - c.elapsed_carry),
                 ("clock.step", c.step),
                 ("clock.duration", c.duration),
+                ("clock.held", c.held),
                 ("clock.residual", c.residual),
             ];
             parts.map(|(label, value)| one(label, vec![value])).to_vec()

@@ -139,6 +139,9 @@ fn clock<A: Real, B: Real>(from: &Clock<A>, real: impl Fn(A) -> B) -> Clock<B> {
         running: from.running,
         rebuild: from.rebuild,
         lists_built: from.lists_built,
+        changes: from.changes,
+        held: real(from.held),
+        arrived: from.arrived,
         fault: from.fault,
         residual: real(from.residual),
     }
@@ -191,7 +194,7 @@ fn params<A: Real, B: Real>(from: &Params<A>, real: impl Fn(A) -> B) -> Params<B
             artificial_exponent, zero, contact_capacity, facet_count, facet_capacity, obstacle_count, facet_alike, surface_count, corner_count;
         real: origin_x, origin_y, origin_z, cell_x, cell_y, cell_z, period_x, period_y, period_z, body_force_x,
             body_force_y, body_force_z, normalisation, reach, slack, hourglass, alpha, beta, softening, smoothing_weight,
-            artificial_epsilon, artificial_weight, cfl, fixed_step, residual, load_rate, contact_apart, contact_reach, facet_reach, contact_rate
+            artificial_epsilon, artificial_weight, cfl, fixed_step, rest_step, interval, stable, residual, load_rate, contact_apart, contact_reach, facet_reach, contact_rate
     )
 }
 
@@ -207,6 +210,7 @@ pub fn random_state<S: Space<Real = f32>>(case: &Case, seed: u64, fraction: f32)
     // A particle on a mirror plane coincides with its image.
     state.columns.displacement[0] = S::Vec::default();
     state.clock = clock_of(&state, fraction);
+    bound_steps::<S>(&mut state);
     state.balance = balance_of(state.clock.step);
     let clock = state.clock;
     for (k, group) in state.group_clocks.iter_mut().enumerate() {
@@ -238,6 +242,15 @@ fn align_cells<S: Space<Real = f32>>(state: &mut State<S>, spacing: f32) {
         (fresh.cell_count, fresh.cell_start, fresh.cell_block);
 }
 
+/// Numbers of size that a run would have, of which each decides somewhere.
+fn bound_steps<S: Space<Real = f32>>(state: &mut State<S>) {
+    let step = state.clock.step;
+    (state.params.stable, state.params.rest_step, state.params.interval) = (1.6, 0.93 * step, 36.7 * step);
+    for body in &mut state.bodies {
+        body.frequency = 2.3 * body.sound_speed / body.smoothing_length;
+    }
+}
+
 fn clock_of<S: Space<Real = f32>>(state: &State<S>, fraction: f32) -> Clock<f32> {
     let step = fraction * 0.21 * state.bodies[0].smoothing_length / state.bodies[0].sound_speed;
     Clock {
@@ -251,6 +264,9 @@ fn clock_of<S: Space<Real = f32>>(state: &State<S>, fraction: f32) -> Clock<f32>
         running: 1,
         rebuild: 1,
         lists_built: 3,
+        changes: 2,
+        held: step,
+        arrived: 0,
         fault: 0,
         residual: 0.3,
     }

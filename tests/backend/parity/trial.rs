@@ -130,6 +130,8 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
         for clock in [
             Clock { rebuild: 0, ..usual },
             Clock { step: 0.0, elapsed: 0.0, elapsed_carry: 0.0, ..usual },
+            Clock { step: 0.0, elapsed: 0.0, elapsed_carry: 0.0, arrived: 1, ..usual },
+            Clock { step: 0.0, elapsed: 0.0, elapsed_carry: 0.0, arrived: 1, duration: 3.0 * calm.params.interval, ..usual },
             ends_in(0.7),
             ends_in(1.5),
             ends_in(2e-6),
