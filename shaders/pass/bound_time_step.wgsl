@@ -142,9 +142,9 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
     if params.fixed_step > 0.0 {
         next.step = select(params.fixed_step, left, left <= params.fixed_step * 1.00001);
     } else if HOLDS && held > 0.0 && held <= SLACK * longest {
-        next.step = shared(left, ceil(left / held - 0.01));
+        next.step = parted(left, ceil(left / held - 0.01));
     } else {
-        next.step = shared(left, parts(left, params.interval, rung(longest)));
+        next.step = parted(left, parts(left, params.interval, rung(longest)));
     }
     if abs(next.step - next.held) > 0.01 * next.held && next.held > 0.0 {
         next.changes += 1u;
@@ -160,7 +160,7 @@ fn next_clock(before: Clock, bound: vec4<real>) -> Clock {
 }
 
 // A part of the time that is left; all of it if it is in no more than one.
-fn shared(left: real, parts: real) -> real {
+fn parted(left: real, parts: real) -> real {
     return select(left, left / parts, parts > 1.5);
 }
 

@@ -5,6 +5,7 @@ pub mod device;
 pub mod frequency;
 pub mod gpu;
 mod machine;
+mod scaled;
 pub mod shader;
 
 pub use machine::{Backend, Fetched, Saved};
@@ -54,18 +55,34 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
             residual_of(scene)
         ));
     }
-    let single = *choice == Choice::Cpu32;
-    match (scene.dimension(), adapter) {
-        (1, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Line<f32>>(scene, true))?)),
-        (2, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Plane<f32>>(scene, true))?)),
-        (_, Some(adapter)) => Ok(Box::new(gpu::Gpu::of_members(&adapter, &states::<Solid<f32>>(scene, true))?)),
-        (1, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Line<f32>>(scene, true)))),
-        (2, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Plane<f32>>(scene, true)))),
-        (_, None) if single => Ok(Box::new(cpu::Cpu::of_members(states::<Solid<f32>>(scene, true)))),
-        (1, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Line<f64>>(scene, false)))),
-        (2, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Plane<f64>>(scene, false)))),
-        (_, None) => Ok(Box::new(cpu::Cpu::of_members(states::<Solid<f64>>(scene, false)))),
+    match scene.dimension() {
+        1 => machine::<Line<f64>, Line<f32>>(scene, choice, adapter),
+        2 => machine::<Plane<f64>, Plane<f32>>(scene, choice, adapter),
+        _ => machine::<Solid<f64>, Solid<f32>>(scene, choice, adapter),
     }
+}
+
+/// The CPU in the space `D`, or the adapter or the CPU in `F`.
+fn machine<D: Space<Real = f64>, F: Space<Real = f32>>(
+    scene: &Scene,
+    choice: &Choice,
+    adapter: Option<wgpu::Adapter>,
+) -> Result<Box<dyn Backend>, String> {
+    if adapter.is_none() && *choice != Choice::Cpu32 {
+        return Ok(Box::new(cpu::Cpu::of_members(states::<D>(scene, false))));
+    }
+    let (mut members, units) = (states::<F>(scene, true), scaled::Units::of(scene));
+    if let Some(units) = units {
+        members.iter_mut().for_each(|member| units.scale(member));
+    }
+    let inner: Box<dyn Backend> = match adapter {
+        Some(adapter) => Box::new(gpu::Gpu::of_members(&adapter, &members)?),
+        None => Box::new(cpu::Cpu::of_members(members)),
+    };
+    Ok(match units {
+        Some(units) => Box::new(scaled::Scaled::new(inner, units)),
+        None => inner,
+    })
 }
 
 /// The first states of all members of a run.

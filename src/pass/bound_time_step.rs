@@ -123,10 +123,10 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
         fixed(left, longest)
     } else if holds && held > zero && held <= S::Real::of(SLACK) * longest {
         // In groups the step of another may have been taken: then what is left is no multiple of it.
-        shared(left, -(S::Real::of(0.01) - left / held).floor())
+        parted(left, -(S::Real::of(0.01) - left / held).floor())
     } else {
         let longest = if holds { rung(params, longest) } else { longest };
-        shared(left, parts(left, params.interval, longest))
+        parted(left, parts(left, params.interval, longest))
     };
     if (clock.step - clock.held).abs() > S::Real::of(0.01) * clock.held && clock.held > zero {
         clock.changes += 1;
@@ -147,7 +147,7 @@ fn fixed<R: Real>(left: R, step: R) -> R {
 }
 
 /// A part of the time that is left; all of it if it is in no more than one.
-fn shared<R: Real>(left: R, parts: R) -> R {
+fn parted<R: Real>(left: R, parts: R) -> R {
     if parts > R::of(1.5) { left / parts } else { left }
 }
 

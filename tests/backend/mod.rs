@@ -5,3 +5,4 @@ mod mirror;
 pub mod parity;
 mod precision;
 pub mod shaders;
+mod units;
