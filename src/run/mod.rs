@@ -164,6 +164,9 @@ struct Run<'a> {
     time: f64,
     steps: u32,
     lists: u32,
+    /// What was warned of so far.
+    warnings: Vec<String>,
+    quiet: bool,
     bar: ProgressBar,
     watch: Stopwatch,
 }
@@ -194,12 +197,15 @@ impl<'a> Run<'a> {
             time: 0.0,
             steps: 0,
             lists: 0,
+            warnings: Vec::new(),
+            quiet: options.quiet,
             bar,
             watch: Stopwatch::start(),
         }
     }
 
     fn go(mut self) -> Result<Finished, Stop> {
+        self.warn(self.scene.body_warnings());
         // A run that begins also makes its first acceleration; one that resumes has loaded it.
         if self.event == 0 {
             self.segment(0.0, true)?;
@@ -211,6 +217,14 @@ impl<'a> Run<'a> {
         }
         self.bar.finish_and_clear();
         self.finish()
+    }
+
+    /// Prints warnings above the bar, and keeps them for the summary.
+    fn warn(&mut self, lines: Vec<String>) {
+        if !self.quiet {
+            self.bar.suspend(|| lines.iter().for_each(|line| eprintln!("lithosph: warning: {line}")));
+        }
+        self.warnings.extend(lines);
     }
 
     /// Steps until an absolute time.
@@ -315,8 +329,9 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
-        let summary =
+        let mut summary =
             Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, &self.watch).map_err(|e| self.fail(&e))?;
+        summary.warnings = self.warnings;
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

@@ -46,16 +46,15 @@ pub(super) fn expand(file: &mut File) -> Result<Vec<usize>, (usize, String)> {
 }
 
 fn copy(typed: &file::BodyTable, number: usize, shift: DVec3) -> file::BodyTable {
-    let moved = |point: &Option<Coordinates>| {
-        let start = point.as_ref().map_or(DVec3::ZERO, Coordinates::vector);
-        Some(Coordinates::from((start + shift).to_array()))
-    };
+    let at = |start: DVec3| Coordinates::from((start + shift).to_array());
+    let moved = |point: &Coordinates| at(point.vector());
     file::BodyTable {
         name: format!("{} {}", typed.name, number + 1),
         group: Some(typed.name.clone()),
         shape: typed.shape.moved(shift),
-        anchor: moved(&typed.anchor),
-        spin_center: moved(&typed.spin_center),
+        // Without an anchor each lattice is centred in its own shape.
+        anchor: typed.anchor.as_ref().map(moved),
+        spin_center: Some(typed.spin_center.as_ref().map_or_else(|| at(DVec3::ZERO), moved)),
         ..typed.clone()
     }
 }

@@ -1,5 +1,6 @@
 //! Scenes: as typed ([`file`]), then resolved here into particles and numbers. Knows no device.
 
+pub mod anchor;
 mod carve;
 mod check;
 mod clip;
@@ -10,6 +11,7 @@ mod cost;
 pub mod facets;
 pub mod file;
 mod groups;
+mod mass;
 pub mod material;
 mod members;
 mod model;
@@ -27,8 +29,10 @@ pub mod shape;
 mod state;
 pub mod study;
 mod surfaces;
-mod words;
+mod volume;
+pub mod words;
 
+pub use mass::BodyMass;
 pub use members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 pub use model::Scene;
 pub(crate) use resolve::resolve;

@@ -262,8 +262,8 @@ fn names(bodies: &[SceneBody]) -> Vec<&str> {
 fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Particle>, String> {
     let mut particles = Vec::new();
     for (k, (typed, body)) in file.body.iter().zip(bodies).enumerate() {
-        let anchor = typed.anchor.as_ref().map_or(DVec3::ZERO, |a| a.vector());
-        let points = fill(&typed.shape, typed.packing, body.spacing, used(anchor, file.dimension), file.dimension)
+        let anchor = typed.lattice_anchor(body.spacing, file.dimension);
+        let points = fill(&typed.shape, typed.packing, body.spacing, anchor, file.dimension)
             .map_err(|message| refuse.at(&["body", &k.to_string(), "shape"], format!("body `{}`: {message}", body.name)))?;
         let center = typed.spin_center.as_ref().map_or(DVec3::ZERO, |c| c.vector());
         let axis = typed.spin_axis.as_ref().map_or(DVec3::Z, |a| a.vector().normalize_or_zero());

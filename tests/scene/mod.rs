@@ -1,0 +1,3 @@
+//! What a scene says of its bodies before it runs: masses.
+
+mod mass;
