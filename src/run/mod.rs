@@ -2,12 +2,14 @@
 
 mod checkpoint;
 mod files;
+mod meetings;
 mod summary;
 
 pub use files::{Files, folder};
 pub use summary::{Stopwatch, Summary};
 
 use checkpoint::Checkpoint;
+use meetings::Meetings;
 
 use crate::backend::{Backend, Choice, open};
 use crate::fields::Field;
@@ -164,6 +166,7 @@ struct Run<'a> {
     time: f64,
     steps: u32,
     lists: u32,
+    meetings: Meetings,
     /// What was warned of so far.
     warnings: Vec<String>,
     quiet: bool,
@@ -174,7 +177,10 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
         let observers = observers(scene);
-        let fields = fields_read(&observers, scene);
+        let mut fields = fields_read(&observers, scene);
+        if Meetings::possible(scene) && !fields.contains(&Field::Displacement) {
+            fields.push(Field::Displacement);
+        }
         let mut frame_fields = fields.clone();
         frame_fields.extend(files::fields_stored(scene));
         frame_fields.sort_unstable();
@@ -197,6 +203,7 @@ impl<'a> Run<'a> {
             time: 0.0,
             steps: 0,
             lists: 0,
+            meetings: Meetings::default(),
             warnings: Vec::new(),
             quiet: options.quiet,
             bar,
@@ -298,6 +305,8 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(fields);
         let fetched = fetched.map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
+        let met = self.meetings.look(&moment);
+        self.warn(met);
         if row {
             self.table.times.push(time);
             for observer in &self.observers {

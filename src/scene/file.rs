@@ -346,6 +346,9 @@ pub struct ContactTable {
     pub colour_field: Option<ColourField>,
     /// Forces along the surface's normals.
     pub zones: Option<Zones>,
+    /// Nothing acts between the two, and that is meant: they pass through each other without a warning.
+    #[serde(default)]
+    pub none: bool,
 }
 
 impl ContactTable {

@@ -90,9 +90,9 @@ impl Scene {
         self.masses().iter().map(line).collect()
     }
 
-    /// What a user should know of the bodies before the run: masses that are off.
+    /// What a user should know of the bodies before the run: masses that are off, thin parts, held ends.
     pub fn body_warnings(&self) -> Vec<String> {
-        self.mass_warnings()
+        [self.mass_warnings(), self.layer_warnings(), self.held_warnings()].concat()
     }
 
     /// One sentence for each body whose particles carry another volume than its shape has.

@@ -10,7 +10,7 @@ use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static, strangers};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -46,6 +46,10 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let period = period(&file, &bodies, &refuse)?;
     let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, groups: &groups, refuse: &refuse };
     let facet_pairs = parts.gaps()?;
+    let laws = strangers::Laws { coupling: &coupling, contacts: &contacts, gaps: &facet_pairs };
+    let apart = strangers::meant_apart(&file, &bodies, &laws, &refuse)?;
+    strangers::no_overlap(&file, &bodies, &particles, &apart, &refuse)?;
+    let strangers = strangers::strangers(bodies.len(), &laws, &apart);
     let obstacles = parts.obstacles(&mut constraints)?;
     let facets = parts.facets(&facet_pairs, &obstacles);
     let mut scene = Scene {
@@ -61,6 +65,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         coupling,
         contacts,
         facet_pairs,
+        strangers,
         obstacles,
         facets,
         constraints,
@@ -74,6 +79,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
         scene.artificial_spacing = artificial_spacing(&scene.file, &scene.bodies, &scene.particles);
+        layered(&scene, &refuse)?;
         return Ok(scene);
     }
     several(&scene, &groups, &refuse)?;
@@ -83,11 +89,20 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: group.name.as_deref() };
         part.method = method(&part, &refuse)?;
         part.artificial_spacing = artificial_spacing(&part.file, &part.bodies, &part.particles);
+        layered(&part, &refuse)?;
         scene.parts.push(part);
     }
     scene.method = scene.method_between(&groups);
     scene.leave_to_parts(&groups);
     Ok(scene)
+}
+
+/// Refuses a body of a single layer of particles where its formulation corrects gradients.
+fn layered(scene: &Scene, refuse: &Refuse) -> Result<(), String> {
+    match scene.thin_parts().iter().find(|thin| thin.layers < 2) {
+        Some(thin) => Err(refuse.at(&["body", &thin.body.to_string(), "shape"], scene.one_layer(thin))),
+        None => Ok(()),
+    }
 }
 
 /// Refuses what a scene of several groups cannot have.
@@ -381,10 +396,14 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
         if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
             return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
         }
-        refuse.unless(contact.kernel.is_some() || contact.touches() || contact.gap.is_some(), &["contact", &at], || {
-            "a contact needs kernel, potential, colour_field, zones or gap".into()
+        let acts = contact.kernel.is_some() || contact.touches() || contact.gap.is_some();
+        refuse.unless(acts || contact.none, &["contact", &at], || {
+            "a contact needs kernel, potential, colour_field, zones, gap or none".into()
         })?;
-        let Some(kernel) = contact.kernel else { continue };
+        refuse.unless(!(acts && contact.none), &["contact", &at, "none"], || {
+            "none = true says that nothing acts between the two: no kernel and no law goes beside it".into()
+        })?;
+        let Some(kernel) = contact.kernel.or(contact.none.then_some(0.0)) else { continue };
         let touching = pairs(bodies, &contact.between);
         refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
         refuse.unless((0.0..=1.0).contains(&kernel), &["contact", &at, "kernel"], || {
