@@ -3,6 +3,7 @@
 mod checkpoint;
 mod files;
 mod summary;
+mod warn;
 
 pub use files::{Files, folder};
 pub use summary::{Stopwatch, Summary};
@@ -68,6 +69,7 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
+    warn::say(scene);
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }
@@ -86,6 +88,7 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
+    warn::say(scene);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);

@@ -39,6 +39,8 @@ pub struct Summary {
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
+    /// What was said to standard error beside the results.
+    pub warnings: Vec<String>,
 }
 
 impl Summary {
@@ -67,6 +69,7 @@ impl Summary {
             seconds,
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
+            warnings: scene.warnings.clone(),
         })
     }
 
@@ -99,6 +102,7 @@ impl Summary {
             "lists_built": self.lists_built, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
             "seconds": self.seconds, "processor_seconds": self.processor_seconds,
             "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
+            "warnings": self.warnings,
         });
         format!("{value:#}\n")
     }

@@ -27,6 +27,7 @@ pub mod shape;
 mod state;
 pub mod study;
 mod surfaces;
+mod warn;
 mod words;
 
 pub use members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};

@@ -10,6 +10,7 @@ use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
+use super::warn::warnings;
 use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
@@ -68,12 +69,14 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         period,
         planes,
         artificial_spacing: 0.0,
+        warnings: Vec::new(),
         most_bonds: OnceLock::new(),
     };
     if let [only] = &groups[..] {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
         scene.artificial_spacing = artificial_spacing(&scene.file, &scene.bodies, &scene.particles);
+        scene.warnings = warnings(&scene, &refuse);
         return Ok(scene);
     }
     several(&scene, &groups, &refuse)?;
@@ -87,6 +90,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     }
     scene.method = scene.method_between(&groups);
     scene.leave_to_parts(&groups);
+    scene.warnings = warnings(&scene, &refuse);
     Ok(scene)
 }
 

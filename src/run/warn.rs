@@ -1,0 +1,18 @@
+//! Warnings on standard error.
+
+use crate::scene::Scene;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+/// What this process has said. A study runs one scene many times and should say each thing once.
+static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+
+/// Says the warnings of a scene. They come out also where a run is told to be quiet, which spares progress and summary alone.
+pub(super) fn say(scene: &Scene) {
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    for warning in &scene.warnings {
+        if said.insert(warning.clone()) {
+            eprintln!("lithosph: warning: {warning}");
+        }
+    }
+}
