@@ -7,6 +7,7 @@ mod contacts;
 mod copies;
 mod corrected_kernel;
 mod cost;
+mod count;
 pub mod facets;
 pub mod file;
 mod groups;

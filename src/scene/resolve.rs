@@ -11,7 +11,7 @@ use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
 use super::warn::warnings;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, file, plasticity, quasi_static};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -37,6 +37,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         // What asks the scene for its formulation means that of its bodies, also where it has a name.
         file.formulation = only.formulation.clone();
     }
+    count::check(&file, &bodies, &groups, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
     // The particles of a group follow each other. The sort is stable: of one group they keep their order.
     particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
@@ -441,7 +442,7 @@ fn period(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<[f64; 3]
 }
 
 /// The method of a scene of one group.
-fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
+pub(super) fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
     let (file, bodies) = (&scene.file, &scene.bodies);
     let f = &file.formulation;
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {
