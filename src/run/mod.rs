@@ -4,6 +4,7 @@ mod checkpoint;
 mod files;
 mod meetings;
 mod summary;
+mod warn;
 
 pub use files::{Files, folder};
 pub use summary::{Stopwatch, Summary};
@@ -70,6 +71,7 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
+    warn::say(&scene.warnings);
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }
@@ -88,6 +90,7 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
+    warn::say(&scene.warnings);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
@@ -167,9 +170,8 @@ struct Run<'a> {
     steps: u32,
     lists: u32,
     meetings: Meetings,
-    /// What was warned of so far.
+    /// What was warned of on the way.
     warnings: Vec<String>,
-    quiet: bool,
     bar: ProgressBar,
     watch: Stopwatch,
 }
@@ -205,14 +207,12 @@ impl<'a> Run<'a> {
             lists: 0,
             meetings: Meetings::default(),
             warnings: Vec::new(),
-            quiet: options.quiet,
             bar,
             watch: Stopwatch::start(),
         }
     }
 
     fn go(mut self) -> Result<Finished, Stop> {
-        self.warn(self.scene.body_warnings());
         // A run that begins also makes its first acceleration; one that resumes has loaded it.
         if self.event == 0 {
             self.segment(0.0, true)?;
@@ -228,9 +228,7 @@ impl<'a> Run<'a> {
 
     /// Prints warnings above the bar, and keeps them for the summary.
     fn warn(&mut self, lines: Vec<String>) {
-        if !self.quiet {
-            self.bar.suspend(|| lines.iter().for_each(|line| eprintln!("lithosph: warning: {line}")));
-        }
+        self.bar.suspend(|| warn::say(&lines));
         self.warnings.extend(lines);
     }
 
@@ -340,7 +338,7 @@ impl<'a> Run<'a> {
         let profiles = self.profiles(&moment);
         let mut summary =
             Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, &self.watch).map_err(|e| self.fail(&e))?;
-        summary.warnings = self.warnings;
+        summary.warnings.extend(self.warnings);
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

@@ -39,7 +39,7 @@ pub struct Summary {
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
-    /// What the run warned of, before it and on its way.
+    /// What was said to standard error beside the results, before the run and on its way.
     pub warnings: Vec<String>,
 }
 
@@ -69,7 +69,7 @@ impl Summary {
             seconds,
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
-            warnings: Vec::new(),
+            warnings: scene.warnings.clone(),
         })
     }
 

@@ -7,10 +7,10 @@ use glam::DVec3;
 const ENOUGH: f64 = 8.0;
 
 impl Scene {
-    /// One sentence for each pair of boundary conditions that hold a yielding body a few layers apart.
-    pub(super) fn held_warnings(&self) -> Vec<String> {
+    /// One sentence for each pair of boundary conditions that hold a yielding body a few layers apart, with the body's index.
+    pub(super) fn held_warnings(&self) -> Vec<(usize, String)> {
         let bodies = (0..self.bodies.len()).filter(|&k| self.bodies[k].material.yields());
-        bodies.flat_map(|k| self.held_ends(k)).collect()
+        bodies.flat_map(|k| self.held_ends(k).into_iter().map(move |line| (k, line))).collect()
     }
 
     fn held_ends(&self, body: usize) -> Vec<String> {

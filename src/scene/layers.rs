@@ -70,13 +70,8 @@ impl Scene {
         thickness.is_some_and(|thickness| thickness >= MANY * self.bodies[body].spacing)
     }
 
-    /// Sentences for the parts that are two layers thin.
-    pub(super) fn layer_warnings(&self) -> Vec<String> {
-        let of = |group: &Scene| group.thin_parts().iter().map(|thin| group.two_layers(thin)).collect::<Vec<_>>();
-        self.groups().iter().flat_map(of).collect()
-    }
-
-    fn two_layers(&self, thin: &Thin) -> String {
+    /// What to tell of a part of two layers.
+    pub(super) fn two_layers(&self, thin: &Thin) -> String {
         let body = &self.bodies[thin.body];
         let ratio = poisson_ratio(body);
         let locks = if ratio > 0.4 {

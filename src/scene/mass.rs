@@ -13,6 +13,8 @@ const OFF: f64 = 0.01;
 /// A body, or all copies of one, as packed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyMass {
+    /// Index of the body, or of the first copy.
+    body: usize,
     /// Name of the body, shared by its copies.
     pub name: String,
     pub particles: usize,
@@ -47,10 +49,10 @@ impl Scene {
         // Copies have one shape, whose volume is found once.
         let (mut row_of, mut volumes) = (Vec::new(), Vec::new());
         let dimension = self.dimension();
-        for (typed, body) in self.file.body.iter().zip(&self.bodies) {
+        for (k, (typed, body)) in self.file.body.iter().zip(&self.bodies).enumerate() {
             let row = list.iter().position(|row| row.name == body.group).unwrap_or_else(|| {
                 let (name, remedy) = (body.group.clone(), remedy(typed, body.spacing, dimension));
-                list.push(BodyMass { name, particles: 0, packed: 0.0, shape: 0.0, mass: 0.0, remedy });
+                list.push(BodyMass { body: k, name, particles: 0, packed: 0.0, shape: 0.0, mass: 0.0, remedy });
                 volumes.push(typed.shape.volume(dimension));
                 list.len() - 1
             });
@@ -90,23 +92,19 @@ impl Scene {
         self.masses().iter().map(line).collect()
     }
 
-    /// What a user should know of the bodies before the run: masses that are off, thin parts, held ends.
-    pub fn body_warnings(&self) -> Vec<String> {
-        [self.mass_warnings(), self.layer_warnings(), self.held_warnings()].concat()
-    }
-
-    /// One sentence for each body whose particles carry another volume than its shape has.
-    pub fn mass_warnings(&self) -> Vec<String> {
+    /// One sentence for each body whose particles carry another volume than its shape has, with the body's index.
+    pub(super) fn mass_warnings(&self) -> Vec<(usize, String)> {
         let rows = self.masses();
         let off = rows.iter().filter(|row| !(row.difference().abs() <= OFF));
         off.map(|row| {
             let more = if row.difference() > 0.0 { "more" } else { "less" };
-            format!(
+            let sentence = format!(
                 "the particles of `{}` carry {:.1} % {more} volume and mass than its shape: {}",
                 row.name,
                 100.0 * row.difference().abs(),
                 row.remedy
-            )
+            );
+            (row.body, sentence)
         })
         .collect()
     }

@@ -8,6 +8,7 @@ mod contacts;
 mod copies;
 mod corrected_kernel;
 mod cost;
+mod count;
 pub mod facets;
 pub mod file;
 mod groups;
@@ -33,6 +34,7 @@ pub mod strangers;
 pub mod study;
 mod surfaces;
 mod volume;
+mod warn;
 pub mod words;
 
 pub use mass::BodyMass;

@@ -47,6 +47,8 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     /// Spacing at which the artificial stress has its nominal strength.
     pub artificial_spacing: f64,
+    /// What the run says before it starts: see [`super::warn`].
+    pub warnings: Vec<String>,
     /// Most neighbours of a particle in the reference configuration, found when first asked for.
     pub(crate) most_bonds: OnceLock<u32>,
 }

@@ -10,7 +10,8 @@ use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static, strangers};
+use super::warn::warnings;
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, file, plasticity, quasi_static, strangers};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -36,6 +37,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         // What asks the scene for its formulation means that of its bodies, also where it has a name.
         file.formulation = only.formulation.clone();
     }
+    count::check(&file, &bodies, &groups, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
     // The particles of a group follow each other. The sort is stable: of one group they keep their order.
     particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
@@ -73,35 +75,41 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         period,
         planes,
         artificial_spacing: 0.0,
+        warnings: Vec::new(),
         most_bonds: OnceLock::new(),
     };
     if let [only] = &groups[..] {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
         scene.artificial_spacing = artificial_spacing(&scene.file, &scene.bodies, &scene.particles);
-        layered(&scene, &refuse)?;
+        scene.warnings = warnings(&scene, layered(&scene, &refuse)?, &refuse);
         return Ok(scene);
     }
     several(&scene, &groups, &refuse)?;
+    let mut thin = Vec::new();
     for group in &groups {
         let mut part = scene.part(group);
         let typed_at: Vec<usize> = group.bodies.iter().map(|&k| typed_at[k]).collect();
         let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: group.name.as_deref() };
         part.method = method(&part, &refuse)?;
         part.artificial_spacing = artificial_spacing(&part.file, &part.bodies, &part.particles);
-        layered(&part, &refuse)?;
+        let of_part = layered(&part, &refuse)?.into_iter();
+        thin.extend(of_part.map(|(body, sentence)| (group.bodies[body], sentence)));
         scene.parts.push(part);
     }
     scene.method = scene.method_between(&groups);
     scene.leave_to_parts(&groups);
+    scene.warnings = warnings(&scene, thin, &refuse);
     Ok(scene)
 }
 
-/// Refuses a body of a single layer of particles where its formulation corrects gradients.
-fn layered(scene: &Scene, refuse: &Refuse) -> Result<(), String> {
-    match scene.thin_parts().iter().find(|thin| thin.layers < 2) {
+/// Refuses a body of a single layer of particles where its formulation corrects gradients. Those of two are warned of: index of
+/// the body and sentence.
+fn layered(scene: &Scene, refuse: &Refuse) -> Result<Vec<(usize, String)>, String> {
+    let thin = scene.thin_parts();
+    match thin.iter().find(|thin| thin.layers < 2) {
         Some(thin) => Err(refuse.at(&["body", &thin.body.to_string(), "shape"], scene.one_layer(thin))),
-        None => Ok(()),
+        None => Ok(thin.iter().map(|thin| (thin.body, scene.two_layers(thin))).collect()),
     }
 }
 
@@ -456,7 +464,7 @@ fn period(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<[f64; 3]
 }
 
 /// The method of a scene of one group.
-fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
+pub(super) fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
     let (file, bodies) = (&scene.file, &scene.bodies);
     let f = &file.formulation;
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {

@@ -30,7 +30,7 @@ fn said(length: f64, law: &str, left: &str, right: &str) -> Vec<String> {
         {right}",
         length - 1.0
     ));
-    scene.body_warnings()
+    scene.warnings
 }
 
 const YIELDS: &str = "law = 'j2'\nyield_stress = 0.01";

@@ -30,8 +30,8 @@ fn open(shape: &str, packing: &str, nu: f64, formulation: &str, more: &str) -> R
 }
 
 fn warnings(shape: &str, packing: &str, nu: f64) -> Vec<String> {
-    let all = open(shape, packing, nu, LAGRANGIAN, "").unwrap().body_warnings();
-    all.into_iter().filter(|line| line.contains("thin")).collect()
+    let all = open(shape, packing, nu, LAGRANGIAN, "").unwrap().warnings;
+    all.into_iter().filter(|line| line.contains("layers of particles")).collect()
 }
 
 /// A piece of `height` between two thick piers.
@@ -104,7 +104,7 @@ fn three_layers_and_thick_bodies_pass() {
 fn half_a_body_at_a_mirror_plane_counts_with_its_image() {
     let strip = |mirror: &str| open("block = { min = [0, 0], max = [1, 30] }", "square", 0.3, LAGRANGIAN, mirror);
     assert!(strip("").is_err());
-    let said = strip("[[symmetry]]\npoint = [0, 0]\nnormal = [1, 0]").unwrap().body_warnings();
+    let said = strip("[[symmetry]]\npoint = [0, 0]\nnormal = [1, 0]").unwrap().warnings;
     assert!(said.len() == 1 && said[0].contains("two layers"), "{said:?}");
 }
 

@@ -41,7 +41,7 @@ fn a_block_without_an_anchor_has_its_whole_mass() {
         assert_eq!((row.particles, scene.particles.len()), (count, count));
         assert!((row.mass / mass - 1.0).abs() < 1e-12, "{}", row.mass);
         assert!(row.difference().abs() < 1e-12);
-        assert!(scene.mass_warnings().is_empty());
+        assert!(scene.warnings.is_empty());
     }
 }
 
@@ -74,7 +74,7 @@ fn lattices_of_round_bodies_are_within_a_hundredth() {
 #[test]
 fn a_mass_that_is_off_is_told_with_the_remedy() {
     let said = |shape: &str, spacing: f64, more: &str| {
-        let lines = body(shape, spacing, 2, more).mass_warnings();
+        let lines = body(shape, spacing, 2, more).warnings;
         assert_eq!(lines.len(), 1);
         lines[0].clone()
     };
