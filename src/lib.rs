@@ -44,6 +44,7 @@ pub mod contact;
 pub mod facet;
 pub mod fields;
 pub mod material;
+pub mod memory;
 pub mod method;
 pub mod observable;
 pub mod obstacle;

@@ -27,6 +27,8 @@ mod pass;
 #[cfg(feature = "hdf5")]
 mod run;
 #[cfg(feature = "hdf5")]
+mod scene;
+#[cfg(feature = "hdf5")]
 mod step;
 #[cfg(feature = "hdf5")]
 mod structure;

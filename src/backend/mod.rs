@@ -10,6 +10,7 @@ pub mod shader;
 
 pub use machine::{Backend, Fetched, Saved};
 
+use crate::memory;
 use crate::scene::Scene;
 use crate::state::State;
 use crate::tensor::{Line, Plane, Solid, Space};
@@ -107,7 +108,7 @@ fn budget(scene: &Scene, adapter: Option<&wgpu::Adapter>, choice: &Choice) -> Re
     let single = adapter.is_some() || *choice == Choice::Cpu32;
     let needed = scene.run_bytes(if single { 4 } else { 8 }, single);
     let device = adapter.map(device::DeviceInfo::of).filter(|info| !info.software).and_then(|info| info.memory);
-    let Some(there) = device.or_else(available_memory) else { return Ok(()) };
+    let Some(there) = device.or_else(memory::available) else { return Ok(()) };
     if needed <= there {
         return Ok(());
     }
@@ -119,12 +120,4 @@ fn budget(scene: &Scene, adapter: Option<&wgpu::Adapter>, choice: &Choice) -> Re
         gigabytes(needed),
         gigabytes(there)
     ))
-}
-
-/// Memory that the host can still give, where it tells.
-fn available_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("MemAvailable:"))?;
-    let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(1024 * kibibytes)
 }

@@ -2,12 +2,15 @@
 
 mod checkpoint;
 mod files;
+mod meetings;
 mod summary;
+mod warn;
 
 pub use files::{Files, folder};
 pub use summary::{StepLengths, Stopwatch, Summary};
 
 use checkpoint::Checkpoint;
+use meetings::Meetings;
 
 use crate::backend::{Backend, Choice, open};
 use crate::fields::Field;
@@ -69,6 +72,7 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
+    warn::say(&scene.warnings);
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }
@@ -87,6 +91,7 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
+    warn::say(&scene.warnings);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
@@ -172,6 +177,9 @@ struct Run<'a> {
     steps: u32,
     lists: u32,
     lengths: StepLengths,
+    meetings: Meetings,
+    /// What was warned of on the way.
+    warnings: Vec<String>,
     bar: ProgressBar,
     watch: Stopwatch,
 }
@@ -179,7 +187,10 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
         let observers = observers(scene);
-        let fields = fields_read(&observers, scene);
+        let mut fields = fields_read(&observers, scene);
+        if Meetings::possible(scene) && !fields.contains(&Field::Displacement) {
+            fields.push(Field::Displacement);
+        }
         let mut frame_fields = fields.clone();
         frame_fields.extend(files::fields_stored(scene));
         frame_fields.sort_unstable();
@@ -203,6 +214,8 @@ impl<'a> Run<'a> {
             steps: 0,
             lists: 0,
             lengths: StepLengths::default(),
+            meetings: Meetings::default(),
+            warnings: Vec::new(),
             bar,
             watch: Stopwatch::start(),
         }
@@ -220,6 +233,12 @@ impl<'a> Run<'a> {
         }
         self.bar.finish_and_clear();
         self.finish()
+    }
+
+    /// Prints warnings above the bar, and keeps them for the summary.
+    fn warn(&mut self, lines: Vec<String>) {
+        self.bar.suspend(|| warn::say(&lines));
+        self.warnings.extend(lines);
     }
 
     /// Steps until an absolute time.
@@ -294,6 +313,8 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(fields);
         let fetched = fetched.map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
+        let met = self.meetings.look(&moment);
+        self.warn(met);
         if row {
             self.table.times.push(time);
             for observer in &self.observers {
@@ -325,8 +346,9 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
-        let summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.lengths, &self.watch)
+        let mut summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.lengths, &self.watch)
             .map_err(|e| self.fail(&e))?;
+        summary.warnings.extend(self.warnings);
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

@@ -4,7 +4,7 @@ use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
 use crate::fields::Field;
 use crate::rows::Clock;
-use crate::scene::Scene;
+use crate::scene::{BodyMass, Scene};
 use crate::step;
 use serde_json::json;
 use std::time::Instant;
@@ -74,6 +74,8 @@ pub struct Summary {
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
+    /// What was said to standard error beside the results, before the run and on its way.
+    pub warnings: Vec<String>,
 }
 
 impl Summary {
@@ -104,6 +106,7 @@ impl Summary {
             seconds,
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
+            warnings: scene.warnings.clone(),
         })
     }
 
@@ -138,6 +141,7 @@ impl Summary {
             "changes_of_step": self.lengths.changes, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
             "seconds": self.seconds, "processor_seconds": self.processor_seconds,
             "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
+            "warnings": self.warnings, "bodies": scene.masses().iter().map(BodyMass::json).collect::<Vec<_>>(),
         });
         format!("{value:#}\n")
     }

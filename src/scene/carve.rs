@@ -11,6 +11,13 @@ const HALVINGS: usize = 4;
 /// Volume (m3) of the shape within a cell of this middle and side (m), and its first moment (m4)
 /// about the middle.
 pub fn carve(shape: &Shape, center: DVec3, side: f64) -> (f64, DVec3) {
+    if let Shape::Block { min, max } = shape {
+        // What a block shares with a cube is a block.
+        let half = DVec3::splat(side / 2.0);
+        let (low, high) = (min.vector().max(center - half), max.vector().min(center + half));
+        let volume = (high - low).max(DVec3::ZERO).element_product();
+        return (volume, volume * ((low + high) / 2.0 - center));
+    }
     part(shape, center, side, HALVINGS, DVec3::ZERO)
 }
 

@@ -6,14 +6,14 @@ use super::shape::{Coordinates, Shape};
 use glam::DVec3;
 
 /// More bodies than this are taken for a typing error: the tables of pairs of bodies grow with the square of the number.
-const MOST: u64 = 10_000;
+const MOST: f64 = 10_000.0;
 
 impl Copies {
     /// How far each copy is moved from the middle of the grid; x runs fastest.
     fn shifts(&self, size: DVec3) -> Result<Vec<DVec3>, String> {
         let count = |axis: usize| self.count.get(axis).copied().unwrap_or(1);
-        let total: u64 = (0..3).map(|axis| u64::from(count(axis))).product();
-        if total == 0 || total > MOST || self.count.len() > 3 {
+        let total: f64 = (0..3).map(|axis| f64::from(count(axis))).product();
+        if !(1.0..=MOST).contains(&total) || self.count.len() > 3 {
             return Err(format!("copies.count takes up to three numbers whose product is 1 to {MOST}, found {:?}", self.count));
         }
         let step = size + self.apart.vector();
@@ -46,16 +46,15 @@ pub(super) fn expand(file: &mut File) -> Result<Vec<usize>, (usize, String)> {
 }
 
 fn copy(typed: &file::BodyTable, number: usize, shift: DVec3) -> file::BodyTable {
-    let moved = |point: &Option<Coordinates>| {
-        let start = point.as_ref().map_or(DVec3::ZERO, Coordinates::vector);
-        Some(Coordinates::from((start + shift).to_array()))
-    };
+    let at = |start: DVec3| Coordinates::from((start + shift).to_array());
+    let moved = |point: &Coordinates| at(point.vector());
     file::BodyTable {
         name: format!("{} {}", typed.name, number + 1),
         group: Some(typed.name.clone()),
         shape: typed.shape.moved(shift),
-        anchor: moved(&typed.anchor),
-        spin_center: moved(&typed.spin_center),
+        // Without an anchor each lattice is centred in its own shape.
+        anchor: typed.anchor.as_ref().map(moved),
+        spin_center: Some(typed.spin_center.as_ref().map_or_else(|| at(DVec3::ZERO), moved)),
         ..typed.clone()
     }
 }
@@ -105,7 +104,9 @@ mod tests {
         let shifts = copies.shifts(size).unwrap();
         assert_eq!((shifts.len(), shifts[0], shifts[5]), (6, DVec3::new(-1.25, -4.0, 0.0), DVec3::new(1.25, 4.0, 0.0)));
         assert!(Copies { count: vec![0], ..copies.clone() }.shifts(size).is_err());
-        assert!(Copies { count: vec![200, 200], ..copies }.shifts(size).is_err());
+        assert!(Copies { count: vec![200, 200], ..copies.clone() }.shifts(size).is_err());
+        // Four billion cubed has no place in 64 bits.
+        assert!(Copies { count: vec![u32::MAX; 3], ..copies }.shifts(size).is_err());
     }
 
     #[test]

@@ -2,10 +2,23 @@
 
 use super::Scene;
 
-/// Particle-updates from which on a run is worth a warning: minutes on a few cores.
-const MUCH: f64 = 1e9;
+/// Particle-updates from which on a run is worth a line: ten seconds or more on a few cores.
+const MUCH: f64 = 2e7;
+/// Particle-updates a second of two cores, about: see the table of speeds in `README.md`.
+const TWO_CORES: f64 = 1.5e6;
 /// Steps that a descent takes to equilibrium, about.
 const DESCENT: f64 = 300.0;
+
+/// Seconds in a unit that gives a number that can be read.
+fn time(seconds: f64) -> String {
+    let (unit, word) = match seconds {
+        _ if seconds < 120.0 => (1.0, "s"),
+        _ if seconds < 7200.0 => (60.0, "minutes"),
+        _ if seconds < 172_800.0 => (3600.0, "hours"),
+        _ => (86_400.0, "days"),
+    };
+    format!("{:.0} {word}", seconds / unit)
+}
 
 impl Scene {
     /// One line for a large run: particles, memory in single and double precision, steps.
@@ -16,10 +29,12 @@ impl Scene {
         }
         let gigabytes = |word| self.run_bytes(word, word == 4) as f64 / 1e9;
         Some(format!(
-            "{particles:.0} particles take {:.1} GB on a GPU, {:.1} GB on the CPU; about {steps:.0} steps, {:.1e} particle-updates",
+            "{particles:.0} particles take {:.2} GB on a GPU, {:.2} GB on the CPU; about {steps:.0} steps, {:.1e} particle-updates, \
+             which take two cores about {}",
             gigabytes(4),
             gigabytes(8),
-            particles * steps
+            particles * steps,
+            time(particles * steps / TWO_CORES)
         ))
     }
 

@@ -119,7 +119,8 @@ pub struct BodyTable {
     pub packing: Packing,
     /// Particle spacing, if not the scene's.
     pub spacing: Option<f64>,
-    /// A point of the lattice; the origin unless given.
+    /// A point of the lattice. Unless given the lattice is centred in the box around the shape, so that a box of whole multiples of
+    /// the spacing is filled to its faces.
     pub anchor: Option<Coordinates>,
     pub material: String,
     /// Name of a `[formulation.NAME]`; the plain `[formulation]` unless given.
@@ -345,6 +346,9 @@ pub struct ContactTable {
     pub colour_field: Option<ColourField>,
     /// Forces along the surface's normals.
     pub zones: Option<Zones>,
+    /// Nothing acts between the two, and that is meant: they pass through each other without a warning.
+    #[serde(default)]
+    pub none: bool,
 }
 
 impl ContactTable {

@@ -1,5 +1,6 @@
 //! Scenes: as typed ([`file`]), then resolved here into particles and numbers. Knows no device.
 
+pub mod anchor;
 mod carve;
 mod check;
 mod clip;
@@ -7,10 +8,14 @@ mod contacts;
 mod copies;
 mod corrected_kernel;
 mod cost;
+mod count;
 pub mod facets;
 pub mod file;
 mod groups;
+mod held;
 pub mod interval;
+mod layers;
+mod mass;
 pub mod material;
 mod members;
 mod model;
@@ -26,10 +31,14 @@ mod resolve;
 mod section;
 pub mod shape;
 mod state;
+pub mod strangers;
 pub mod study;
 mod surfaces;
-mod words;
+mod volume;
+mod warn;
+pub mod words;
 
+pub use mass::BodyMass;
 pub use members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 pub use model::Scene;
 pub(crate) use resolve::resolve;

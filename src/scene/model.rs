@@ -34,6 +34,8 @@ pub struct Scene {
     pub contacts: Vec<Vec<ContactPair<f64>>>,
     /// How the surfaces of bodies a and b touch.
     pub facet_pairs: Vec<Vec<FacetPair<f64>>>,
+    /// Whether bodies a and b have no law between them and the scene does not say that this is meant; empty where no bodies do.
+    pub strangers: Vec<Vec<bool>>,
     pub obstacles: Vec<SceneObstacle>,
     /// In order of the numbers of the particles that carry them; none where nothing touches by surfaces.
     pub facets: Vec<SceneFacet>,
@@ -45,6 +47,8 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     /// Spacing at which the artificial stress has its nominal strength.
     pub artificial_spacing: f64,
+    /// What the run says before it starts: see [`super::warn`].
+    pub warnings: Vec<String>,
     /// Most neighbours of a particle in the reference configuration, found when first asked for.
     pub(crate) most_bonds: OnceLock<u32>,
 }

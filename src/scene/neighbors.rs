@@ -34,7 +34,7 @@ impl Scene {
     }
 }
 
-fn mirrored(planes: &[Plane], image: u32, mut x: DVec3) -> DVec3 {
+pub(super) fn mirrored(planes: &[Plane], image: u32, mut x: DVec3) -> DVec3 {
     for (k, plane) in planes.iter().enumerate() {
         if image >> k & 1 == 1 {
             x -= plane.normal * (2.0 * (x.dot(plane.normal) - plane.offset));
@@ -44,7 +44,7 @@ fn mirrored(planes: &[Plane], image: u32, mut x: DVec3) -> DVec3 {
 }
 
 /// Particles by cells at least as wide as the reach.
-struct Grid {
+pub(super) struct Grid {
     side: DVec3,
     /// Cells along each periodic axis, 0 where it is open.
     wrap: IVec3,
@@ -53,7 +53,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(scene: &Scene, reach: f64) -> Self {
+    pub fn new(scene: &Scene, reach: f64) -> Self {
         let period = DVec3::from_array(scene.period);
         let wrap = (period / reach).floor().as_ivec3();
         let divided = |k: usize| if wrap[k] > 0 { period[k] / f64::from(wrap[k]) } else { reach };
@@ -73,28 +73,35 @@ impl Grid {
 
     /// Particles of a body within a distance, at most the grid's, of a point.
     fn count(&self, scene: &Scene, x: DVec3, body: u32, reach: f64) -> u32 {
+        let mut found = 0;
+        self.visit(scene, x, body, reach, |_, _| found += 1);
+        found
+    }
+
+    /// Hands on the index of each of them, and the way to it from the point.
+    pub fn visit(&self, scene: &Scene, x: DVec3, body: u32, reach: f64, mut hand_on: impl FnMut(usize, DVec3)) {
         let center = (x / self.side).floor().as_ivec3();
         let range = |k: usize| if k < scene.dimension() { -1..=1 } else { 0..=0 };
-        let mut found = 0;
         for dz in range(2) {
             for dy in range(1) {
                 for dx in range(0) {
                     let cell = self.wrapped(center + IVec3::new(dx, dy, dz));
-                    let near = |&&i: &&u32| {
+                    for &i in self.cells.get(&cell).into_iter().flatten() {
                         let other = &scene.particles[i as usize];
-                        other.body == body && self.distance(x, other.position) < reach
-                    };
-                    found += self.cells.get(&cell).map_or(0, |list| list.iter().filter(near).count()) as u32;
+                        let way = self.way(x, other.position);
+                        if other.body == body && way.length() < reach {
+                            hand_on(i as usize, way);
+                        }
+                    }
                 }
             }
         }
-        found
     }
 
-    /// To the nearest periodic image.
-    fn distance(&self, a: DVec3, b: DVec3) -> f64 {
-        let apart = a - b;
+    /// From a to the nearest periodic image of b.
+    fn way(&self, a: DVec3, b: DVec3) -> DVec3 {
+        let apart = b - a;
         let axis = |k: usize| if self.period[k] > 0.0 { self.period[k] * (apart[k] / self.period[k]).round() } else { 0.0 };
-        (apart - DVec3::new(axis(0), axis(1), axis(2))).length()
+        apart - DVec3::new(axis(0), axis(1), axis(2))
     }
 }

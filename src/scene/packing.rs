@@ -42,7 +42,8 @@ pub struct Point {
 /// Particles `spacing` (m) apart that fill `shape`, in a fixed order: for lattices and fitted cells
 /// by z, then y, then x; for rings by layer, then radius, then angle.
 ///
-/// `anchor` (m) is a point of the lattice or the middle of a fitted cell; rings do not use it.
+/// `anchor` (m) is a point of the lattice or the middle of a fitted cell, [`super::anchor`] where the scene names none; rings do not
+/// use it.
 ///
 /// # Errors
 /// One sentence where the shape, the spacing or the packing is impossible, where no particle fits,
@@ -74,20 +75,20 @@ pub fn fill(shape: &Shape, packing: Packing, spacing: f64, anchor: DVec3, dimens
 }
 
 /// Rows along x at regular steps of y and z.
-struct Lattice {
+pub(super) struct Lattice {
     /// m
-    step: DVec3,
+    pub step: DVec3,
     /// Every second row begins half a step later, alternating along y and along z.
-    staggered: bool,
-    volume: f64,
+    pub staggered: bool,
+    pub volume: f64,
 }
 
 impl Lattice {
-    fn square(spacing: f64, dimension: usize) -> Self {
+    pub fn square(spacing: f64, dimension: usize) -> Self {
         Self { step: DVec3::splat(spacing), staggered: false, volume: spacing.powi(dimension as i32) }
     }
 
-    fn hexagonal(spacing: f64, dimension: usize) -> Result<Self, String> {
+    pub fn hexagonal(spacing: f64, dimension: usize) -> Result<Self, String> {
         let (step, volume) = match dimension {
             2 => {
                 let row = 0.75_f64.sqrt() * spacing;
@@ -104,7 +105,7 @@ impl Lattice {
         Ok(Self { step, staggered: true, volume })
     }
 
-    fn fill(&self, shape: &Shape, anchor: DVec3, dimension: usize) -> Vec<Point> {
+    pub fn fill(&self, shape: &Shape, anchor: DVec3, dimension: usize) -> Vec<Point> {
         let (min, max) = shape.bounds(dimension);
         let first = used(((min - anchor) / self.step).floor() - 1.0, dimension);
         let last = used(((max - anchor) / self.step).ceil(), dimension);

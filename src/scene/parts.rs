@@ -59,8 +59,11 @@ impl Scene {
             for other in &self.parts[..k] {
                 let bodies = |part: &Scene| part.part_of.as_ref().map_or_else(Vec::new, |(bodies, _)| bodies.clone());
                 let others = bodies(other);
-                let acts = bodies(one).into_iter().any(|a| others.iter().any(|&b| self.contacts[a][b].range > 0.0));
-                if !acts {
+                let acts = |a: usize, b: usize| self.contacts[a][b].range > 0.0;
+                let strange = |a: usize, b: usize| self.strangers.get(a).is_some_and(|row| row[b]);
+                let some =
+                    |holds: &dyn Fn(usize, usize) -> bool| bodies(one).into_iter().any(|a| others.iter().any(|&b| holds(a, b)));
+                if !some(&acts) && some(&strange) {
                     lines.push(format!("nothing acts between {} and {}: they pass through each other", names(other), names(one)));
                 }
             }

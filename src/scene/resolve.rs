@@ -10,7 +10,8 @@ use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
+use super::warn::warnings;
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, file, plasticity, quasi_static, strangers};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -36,6 +37,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         // What asks the scene for its formulation means that of its bodies, also where it has a name.
         file.formulation = only.formulation.clone();
     }
+    count::check(&file, &bodies, &groups, &refuse)?;
     let mut particles = pack(&file, &bodies, &refuse)?;
     // The particles of a group follow each other. The sort is stable: of one group they keep their order.
     particles.sort_by_key(|particle| groups.iter().position(|group| group.bodies.contains(&(particle.body as usize))));
@@ -46,6 +48,10 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let period = period(&file, &bodies, &refuse)?;
     let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, groups: &groups, refuse: &refuse };
     let facet_pairs = parts.gaps()?;
+    let laws = strangers::Laws { coupling: &coupling, contacts: &contacts, gaps: &facet_pairs };
+    let apart = strangers::meant_apart(&file, &bodies, &laws, &refuse)?;
+    strangers::no_overlap(&file, &bodies, &particles, &apart, &refuse)?;
+    let strangers = strangers::strangers(bodies.len(), &laws, &apart);
     let obstacles = parts.obstacles(&mut constraints)?;
     let facets = parts.facets(&facet_pairs, &obstacles);
     let mut scene = Scene {
@@ -61,6 +67,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         coupling,
         contacts,
         facet_pairs,
+        strangers,
         obstacles,
         facets,
         constraints,
@@ -68,26 +75,42 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         period,
         planes,
         artificial_spacing: 0.0,
+        warnings: Vec::new(),
         most_bonds: OnceLock::new(),
     };
     if let [only] = &groups[..] {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
         scene.artificial_spacing = artificial_spacing(&scene.file, &scene.bodies, &scene.particles);
+        scene.warnings = warnings(&scene, layered(&scene, &refuse)?, &refuse);
         return Ok(scene);
     }
     several(&scene, &groups, &refuse)?;
+    let mut thin = Vec::new();
     for group in &groups {
         let mut part = scene.part(group);
         let typed_at: Vec<usize> = group.bodies.iter().map(|&k| typed_at[k]).collect();
         let refuse = Refuse { source: &source, typed_at: &typed_at, formulation: group.name.as_deref() };
         part.method = method(&part, &refuse)?;
         part.artificial_spacing = artificial_spacing(&part.file, &part.bodies, &part.particles);
+        let of_part = layered(&part, &refuse)?.into_iter();
+        thin.extend(of_part.map(|(body, sentence)| (group.bodies[body], sentence)));
         scene.parts.push(part);
     }
     scene.method = scene.method_between(&groups);
     scene.leave_to_parts(&groups);
+    scene.warnings = warnings(&scene, thin, &refuse);
     Ok(scene)
+}
+
+/// Refuses a body of a single layer of particles where its formulation corrects gradients. Those of two are warned of: index of
+/// the body and sentence.
+fn layered(scene: &Scene, refuse: &Refuse) -> Result<Vec<(usize, String)>, String> {
+    let thin = scene.thin_parts();
+    match thin.iter().find(|thin| thin.layers < 2) {
+        Some(thin) => Err(refuse.at(&["body", &thin.body.to_string(), "shape"], scene.one_layer(thin))),
+        None => Ok(thin.iter().map(|thin| (thin.body, scene.two_layers(thin))).collect()),
+    }
 }
 
 /// Refuses what a scene of several groups cannot have.
@@ -262,8 +285,8 @@ fn names(bodies: &[SceneBody]) -> Vec<&str> {
 fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Particle>, String> {
     let mut particles = Vec::new();
     for (k, (typed, body)) in file.body.iter().zip(bodies).enumerate() {
-        let anchor = typed.anchor.as_ref().map_or(DVec3::ZERO, |a| a.vector());
-        let points = fill(&typed.shape, typed.packing, body.spacing, used(anchor, file.dimension), file.dimension)
+        let anchor = typed.lattice_anchor(body.spacing, file.dimension);
+        let points = fill(&typed.shape, typed.packing, body.spacing, anchor, file.dimension)
             .map_err(|message| refuse.at(&["body", &k.to_string(), "shape"], format!("body `{}`: {message}", body.name)))?;
         let center = typed.spin_center.as_ref().map_or(DVec3::ZERO, |c| c.vector());
         let axis = typed.spin_axis.as_ref().map_or(DVec3::Z, |a| a.vector().normalize_or_zero());
@@ -381,10 +404,14 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
         if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
             return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
         }
-        refuse.unless(contact.kernel.is_some() || contact.touches() || contact.gap.is_some(), &["contact", &at], || {
-            "a contact needs kernel, potential, colour_field, zones or gap".into()
+        let acts = contact.kernel.is_some() || contact.touches() || contact.gap.is_some();
+        refuse.unless(acts || contact.none, &["contact", &at], || {
+            "a contact needs kernel, potential, colour_field, zones, gap or none".into()
         })?;
-        let Some(kernel) = contact.kernel else { continue };
+        refuse.unless(!(acts && contact.none), &["contact", &at, "none"], || {
+            "none = true says that nothing acts between the two: no kernel and no law goes beside it".into()
+        })?;
+        let Some(kernel) = contact.kernel.or(contact.none.then_some(0.0)) else { continue };
         let touching = pairs(bodies, &contact.between);
         refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
         refuse.unless((0.0..=1.0).contains(&kernel), &["contact", &at, "kernel"], || {
@@ -437,7 +464,7 @@ fn period(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<[f64; 3]
 }
 
 /// The method of a scene of one group.
-fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
+pub(super) fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
     let (file, bodies) = (&scene.file, &scene.bodies);
     let f = &file.formulation;
     refuse.unless(f.xsph.is_none() || f.velocity_filter.is_none(), &["formulation", "velocity_filter"], || {

@@ -225,8 +225,8 @@ impl Parts<'_> {
             if !touches {
                 continue;
             }
-            let anchor = typed.anchor.as_ref().map_or(DVec3::ZERO, |a| a.vector());
-            let mut pieces = facets(&typed.shape, body.spacing, used(anchor, self.file.dimension), self.file.dimension);
+            let anchor = typed.lattice_anchor(body.spacing, self.file.dimension);
+            let mut pieces = facets(&typed.shape, body.spacing, anchor, self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
             let own = self.particles.iter().enumerate().filter(|(_, p)| p.body as usize == k);
             // A particle that lies deeper than this carries no facet.

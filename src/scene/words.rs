@@ -1,6 +1,8 @@
 //! Complaints about a scene in plain words: serde names Rust types and TOML byte ranges, this names the
 //! scene's own keys and what belongs there.
 
+use glam::DVec3;
+
 /// What serde found wrong, with the part of the scene that it concerns.
 pub(super) struct Fault<'a> {
     /// serde's own words.
@@ -239,6 +241,22 @@ fn found(fault: &Fault) -> String {
         }
         _ => fault.found.clone(),
     }
+}
+
+/// A number with a few significant digits, without zeros at the end.
+pub fn rounded(number: f64, digits: usize) -> String {
+    let text = format!("{number:.*e}", digits - 1);
+    match text.parse::<f64>() {
+        Ok(number) if number == 0.0 || (1e-4..1e6).contains(&number.abs()) => format!("{number}"),
+        Ok(number) => format!("{number:e}"),
+        Err(_) => text,
+    }
+}
+
+/// A place as "(x, y)", with as many coordinates as the scene has.
+pub fn place(place: DVec3, dimension: usize) -> String {
+    let numbers: Vec<String> = place.to_array()[..dimension].iter().map(|&number| rounded(number, 4)).collect();
+    format!("({})", numbers.join(", "))
 }
 
 /// Words in backticks: "`a`, `b` or `c`".

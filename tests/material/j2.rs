@@ -280,6 +280,7 @@ fn sheared_plate(kind: &str, steps: u32) -> [f64; 3] {
         [[body]]
         name = 'plate'
         shape = {{ block = {{ min = [-0.5, -0.5], max = [0.5, 0.5] }} }}
+        anchor = [0, 0]
         material = 'metal'
         motion = {{ gradient = [[0, 0.8], [0, 0]] }}
         [material.metal]

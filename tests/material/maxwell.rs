@@ -127,6 +127,7 @@ fn plate(steps: u32) -> ([f64; 2], f64) {
         [[body]]
         name = 'plate'
         shape = {{ block = {{ min = [-0.5, -0.5], max = [0.5, 0.5] }} }}
+        anchor = [0, 0]
         material = 'fluid'
         motion = {{ gradient = [[0, 0.8], [0, 0]] }}
         [material.fluid]

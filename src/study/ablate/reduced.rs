@@ -67,7 +67,7 @@ fn block(file: &File, body: &BodyTable) -> Option<(Vec<f64>, Vec<f64>, f64)> {
 }
 
 /// The factor nearest to [`COARSER`] by which every block keeps a whole number of spacings along each side, and where no
-/// anchor is typed its place between the points of the lattice. Any other shape is content with any factor.
+/// anchor is typed, so that the lattice is centred in it, the point in its middle or the lack of one. Any other shape is content with any factor.
 fn factor(file: &File) -> Option<f64> {
     let blocks: Vec<_> = file.body.iter().filter_map(|body| Some((body, block(file, body)?))).collect();
     let sides = |low: &[f64], high: &[f64]| low.iter().zip(high).map(|(low, high)| high - low).collect::<Vec<f64>>();
@@ -77,8 +77,9 @@ fn factor(file: &File) -> Option<f64> {
         blocks.iter().all(|(body, (low, high, spacing))| {
             // A side that is no whole number of spacings now need not become one.
             let whole = |side: f64| !kept(0.0, side / spacing) || kept(side / spacing, side / (spacing * factor));
-            let ends = body.anchor.is_some() || low.iter().chain(high).all(|&end| kept(end / spacing, end / (spacing * factor)));
-            sides(low, high).into_iter().all(whole) && ends
+            let half = |side: &f64| kept(side / 2.0 / spacing, side / 2.0 / (spacing * factor));
+            let sides = sides(low, high);
+            (body.anchor.is_some() || sides.iter().all(half)) && sides.into_iter().all(whole)
         })
     };
     let factors = (1..most as u64).map(|fewer| most / fewer as f64);

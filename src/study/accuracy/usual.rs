@@ -6,7 +6,9 @@ use super::matrix::Group;
 use crate::material::Law;
 use crate::method::{Formulation, Gradient};
 use crate::scene::Scene;
+use crate::scene::file::BodyTable;
 use crate::smoothing::Smoothing;
+use glam::DVec3;
 
 /// Particles up to which half the spacing is tried too.
 const FEW: usize = 10_000;
@@ -72,11 +74,12 @@ fn resolution(scene: &Scene) -> Group {
     group
 }
 
-/// Half the spacing is the same scene, finer, only where no lattice is anchored (mostly half a spacing off a face) and
-/// no body has a spacing of its own.
+/// Half the spacing is the same scene, finer, only where no lattice is anchored but at the origin (mostly half a spacing off a
+/// face) and no body has a spacing of its own.
 fn halves(scene: &Scene) -> bool {
     let finer = scene.particles.len() << scene.dimension();
-    finer <= FEW && scene.file.body.iter().all(|body| body.anchor.is_none() && body.spacing.is_none())
+    let anchored = |body: &BodyTable| body.anchor.as_ref().is_some_and(|anchor| anchor.vector() != DVec3::ZERO);
+    finer <= FEW && scene.file.body.iter().all(|body| !anchored(body) && body.spacing.is_none())
 }
 
 /// The Total Lagrangian of an Eulerian scene, with what it needs and without what it lacks, and the other way round.

@@ -1,0 +1,6 @@
+//! What a scene says of its bodies before it runs: masses, thin parts, held ends, and bodies with nothing between them.
+
+mod held;
+mod layers;
+mod mass;
+mod strangers;
