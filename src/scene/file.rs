@@ -605,7 +605,7 @@ pub struct Picture {
     pub height: u32,
     /// Direction from which a 3D scene is seen.
     pub eye: Option<[f64; 3]>,
-    /// Corners of what is shown; the whole scene over the whole run unless given.
+    /// Corners of what is shown, in every picture; unless given the bodies at the start, and more where one leaves that.
     pub bounds: Option<[Coordinates; 2]>,
 }
 

@@ -21,7 +21,9 @@ pub(super) fn held(typed: &Boundary, dimension: usize, mass: f64) -> Result<([bo
     }
     let (mut prescribed, mut vector) = ([false; 3], [0.0; 3]);
     match (&fixed, &typed.velocity, &typed.force) {
-        (Some(_), Some(_), _) => return Err("has `fixed` and `velocity`: an axis that is fixed has the velocity 0".into()),
+        (Some(_), Some(_), _) => {
+            return Err("takes `fixed` or `velocity`, not both: an axis that is fixed has the velocity 0".into());
+        }
         (None, None, None) => return Err("needs one of fixed, velocity or force".into()),
         (Some(axes), None, _) => prescribed[..dimension].copy_from_slice(axes),
         (None, Some(velocity), _) => {
@@ -89,7 +91,7 @@ mod tests {
         let cases = [
             ("fixed = [true]", "takes 2 components of `fixed`"),
             ("velocity = [1, 2, 3]", "takes 2 components of `velocity`"),
-            ("fixed = true\nvelocity = [1, 2]", "has `fixed` and `velocity`"),
+            ("fixed = true\nvelocity = [1, 2]", "not both"),
             ("", "needs one of fixed, velocity or force"),
             ("force = [0, 0, 1]", "along z, an axis that a scene of 2 dimensions"),
             ("fixed = true\ncourse = [[0, 1], [1, 2]]", "has a course"),
