@@ -3,4 +3,5 @@
 mod held;
 mod layers;
 mod mass;
+mod slips;
 mod strangers;
