@@ -1,14 +1,20 @@
-//! Watches for bodies that come close with no law between them: they pass through each other, and nothing else says so.
+//! Watches for bodies that pass through each other: those that come close with no law between them, and those whose law gives
+//! way. Nothing else says so.
 
 use crate::observable::Moment;
 use crate::scene::strangers::near_pairs;
 use crate::scene::words;
 use crate::scene::{Scene, SceneBody};
-use glam::DVec3;
+use glam::{DVec3, I64Vec3};
 use std::collections::{BTreeSet, HashMap};
 
 /// Bodies that lie on one lattice and share a face are exactly one spacing apart; rounding shall not decide whether that is told.
 const ROUNDING: f64 = 1e-6;
+
+/// Distance, over the spacing, within which touching bodies have no particles, and a particle inside another body has several.
+const INSIDE: f64 = 0.75;
+/// Length of the mean of the directions to such particles: 1 where all lie on one side, 0 in their midst.
+const MIDST: f64 = 0.5;
 
 /// What was told so far.
 #[derive(Debug, Default)]
@@ -55,6 +61,55 @@ impl Meetings {
     }
 }
 
+/// Whether a scene has bodies whose law of contact could give way.
+pub fn may_cross(scene: &Scene) -> bool {
+    let count = scene.bodies.len();
+    (0..count).any(|a| (0..a).any(|b| touch(scene, a, b)))
+}
+
+fn touch(scene: &Scene, a: usize, b: usize) -> bool {
+    a != b && (scene.contacts[a][b].range > 0.0 || scene.facet_pairs[a][b].stiffness > 0.0)
+}
+
+/// A sentence if a particle of one body lies in the midst of those of another, although a law is between the two.
+pub fn crossed(moment: &Moment) -> Option<String> {
+    let scene = moment.scene;
+    let count = scene.bodies.len();
+    if !may_cross(scene) {
+        return None;
+    }
+    let watched: Vec<bool> = (0..count).map(|a| (0..count).any(|b| touch(scene, a, b))).collect();
+    let mut bodies = vec![Vec::new(); count];
+    for (i, particle) in scene.particles.iter().enumerate().filter(|(_, particle)| watched[particle.body as usize]) {
+        bodies[particle.body as usize].push(DVec3::from_array(moment.position(i)));
+    }
+    let boxes: Vec<(DVec3, DVec3)> = bodies.iter().map(|points| around(points, 0.0)).collect();
+    near_pairs(&boxes).into_iter().filter(|&(a, b)| touch(scene, a, b)).find_map(|(a, b)| {
+        let within = INSIDE * scene.bodies[a].spacing.max(scene.bodies[b].spacing);
+        let [own, other] = [&bodies[a], &bodies[b]];
+        let place =
+            midst([own, other], [boxes[a], boxes[b]], within).or_else(|| midst([other, own], [boxes[b], boxes[a]], within))?;
+        let [_, _, unit] = scene.unit_names();
+        Some(format!(
+            "`{}` and `{}` pass through each other at {}, seen at t = {:.4e} {unit}: what is between them is too soft for this \
+             impact; raise the stiffness of their [[contact]], or refine",
+            scene.bodies[a].name,
+            scene.bodies[b].name,
+            words::place(place, scene.dimension()),
+            moment.time
+        ))
+    })
+}
+
+/// A point of the second body that has points of the first on all sides within a distance (m).
+fn midst(points: [&[DVec3]; 2], boxes: [(DVec3, DVec3); 2], within: f64) -> Option<DVec3> {
+    let near = Near::new(points[0], boxes, within);
+    points[1].iter().copied().find(|&point| {
+        let directions: Vec<DVec3> = near.of(point).map(|other| (other - point).normalize_or_zero()).collect();
+        directions.len() > 1 && directions.iter().sum::<DVec3>().length() < MIDST * directions.len() as f64
+    })
+}
+
 fn sentence(time: f64, [a, b]: [&SceneBody; 2], place: DVec3, scene: &Scene) -> String {
     let [_, _, unit] = scene.unit_names();
     let (first, second) = if a.group == b.group { (&a.name, &b.name) } else { (&a.group, &b.group) };
@@ -74,18 +129,47 @@ fn around(points: &[DVec3], margin: f64) -> (DVec3, DVec3) {
 
 /// The middle between two points, one of either body, that lie within a distance (m) of each other: the first such.
 fn meeting(points: [&[DVec3]; 2], boxes: [(DVec3, DVec3); 2], within: f64) -> Option<DVec3> {
-    let (low, high) = (boxes[0].0.max(boxes[1].0) - within, boxes[0].1.min(boxes[1].1) + within);
-    let near = |point: &&DVec3| point.cmpge(low).all() && point.cmple(high).all();
-    let cell = |point: DVec3| ((point - low) / within).floor().as_i64vec3();
-    let mut cells: HashMap<glam::I64Vec3, Vec<DVec3>> = HashMap::new();
-    points[0].iter().filter(near).for_each(|&point| cells.entry(cell(point)).or_default().push(point));
-    let around: Vec<glam::I64Vec3> = (0..27).map(|k| glam::I64Vec3::new(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)).collect();
-    points[1].iter().filter(near).find_map(|&point| {
-        let others = around.iter().filter_map(|step| cells.get(&(cell(point) + *step))).flatten();
-        let close = others.filter(|other| other.distance(point) < within).min_by(|a, b| {
-            let distance = |other: &DVec3| other.distance_squared(point);
-            distance(a).total_cmp(&distance(b))
-        });
-        close.map(|other| (*other + point) / 2.0)
+    let near = Near::new(points[0], boxes, within);
+    points[1].iter().find_map(|&point| {
+        let distance = |other: &DVec3| other.distance_squared(point);
+        near.of(point).min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|other| (other + point) / 2.0)
     })
+}
+
+/// Points of a body near another, by cells as wide as the distance (m) that is looked within.
+struct Near {
+    low: DVec3,
+    high: DVec3,
+    within: f64,
+    cells: HashMap<I64Vec3, Vec<DVec3>>,
+}
+
+impl Near {
+    /// Of the points those in both boxes, or a distance further out.
+    fn new(points: &[DVec3], boxes: [(DVec3, DVec3); 2], within: f64) -> Self {
+        let (low, high) = (boxes[0].0.max(boxes[1].0) - within, boxes[0].1.min(boxes[1].1) + within);
+        let mut near = Self { low, high, within, cells: HashMap::new() };
+        for &point in points {
+            if near.holds(point) {
+                near.cells.entry(near.cell(point)).or_default().push(point);
+            }
+        }
+        near
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        point.cmpge(self.low).all() && point.cmple(self.high).all()
+    }
+
+    fn cell(&self, point: DVec3) -> I64Vec3 {
+        ((point - self.low) / self.within).floor().as_i64vec3()
+    }
+
+    /// Points within the distance of a point.
+    fn of(&self, point: DVec3) -> impl Iterator<Item = DVec3> {
+        let cells = if self.holds(point) { 27 } else { 0 };
+        let around = (0..cells).map(|k| I64Vec3::new(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+        let others = around.filter_map(move |step| self.cells.get(&(self.cell(point) + step))).flatten();
+        others.copied().filter(move |other| other.distance(point) < self.within)
+    }
 }

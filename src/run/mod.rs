@@ -188,7 +188,7 @@ impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
         let observers = observers(scene);
         let mut fields = fields_read(&observers, scene);
-        if Meetings::possible(scene) && !fields.contains(&Field::Displacement) {
+        if (Meetings::possible(scene) || meetings::may_cross(scene)) && !fields.contains(&Field::Displacement) {
             fields.push(Field::Displacement);
         }
         let mut frame_fields = fields.clone();
@@ -324,7 +324,9 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        self.write(&moment, row, frame).map_err(|e| self.fail(&e))
+        let crossed = meetings::crossed(&moment);
+        self.write(&moment, row, frame).map_err(|e| self.fail(&e))?;
+        crossed.map_or(Ok(()), |sentence| Err(self.fail(&sentence)))
     }
 
     /// Row, frame and checkpoint of a moment.
