@@ -137,6 +137,7 @@ fn element<S: Space>(hardening: Hardening, k: f64) -> State<S> {
         yield_stress = {YIELD}
         {}
         [formulation]
+        kind = 'eulerian'
         gradient = 'adjoint'
         dissipated_energy = true",
         S::DIMENSION,

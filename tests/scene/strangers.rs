@@ -80,7 +80,8 @@ fn a_law_the_word_none_and_distance_are_no_reason_to_warn() {
         (0.12, "eulerian", NONE),
         (0.4, "total_lagrangian", ""),
     ] {
-        assert_eq!(warned(&blocks(left, kind, more)), [""; 0], "{kind} {more}");
+        let lines = warned(&blocks(left, kind, more));
+        assert!(!lines.iter().any(|line| line.contains("no law is between")), "{kind} {more}: {lines:?}");
     }
 }
 

@@ -574,7 +574,7 @@ impl Case {
         let pushed = [0.5 * force, -0.7 * force, 0.3 * force];
         format!(
             "{}velocity = [{held}]\ncourse = [{between}]\n{}force = [{pushed}]\ncourse = [{before}]\n\
-             {}velocity = [{held}]\nforce = [{pushed}]\n{}force = [{pushed}]\ncourse = [{between}]\n\
+             {}velocity = [{held}]\nforce = [{across}]\n{}force = [{pushed}]\ncourse = [{between}]\n\
              {}velocity = [{held}]\ncourse = [{after}]\n",
             slab(0.0, 1.0),
             slab(2.0, 3.0),
@@ -583,6 +583,7 @@ impl Case {
             slab(8.0, 9.0),
             held = held.join(", "),
             pushed = list(pushed),
+            across = list([0.0, pushed[1], pushed[2]]),
         )
     }
 
