@@ -345,6 +345,9 @@ pub struct ContactTable {
     pub colour_field: Option<ColourField>,
     /// Forces along the surface's normals.
     pub zones: Option<Zones>,
+    /// Bonded where they share a face, each of its own material. Total Lagrangian only.
+    #[serde(default)]
+    pub tie: bool,
 }
 
 impl ContactTable {

@@ -27,6 +27,7 @@ pub mod shape;
 mod state;
 pub mod study;
 mod surfaces;
+mod ties;
 mod words;
 
 pub use members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};

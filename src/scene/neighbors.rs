@@ -10,27 +10,53 @@ use std::collections::HashMap;
 const ROUNDING: f64 = 1.0 + 1e-5;
 
 impl Scene {
-    /// Most particles of its own body that any particle has within a distance, mirror images included.
+    /// Most particles of its own body and of those tied to it that any particle has within a distance, mirror images included.
     pub(super) fn most_neighbors(&self, reach: f64) -> u32 {
         let reach = reach * ROUNDING;
         let grid = Grid::new(self, reach);
         let count = |i: usize| {
             let x = self.particles[i].position;
             let images = (0..1u32 << self.planes.len()).map(|image| mirrored(&self.planes, image, x));
-            images.map(|x| grid.count(self, x, self.particles[i].body, reach)).sum::<u32>() - 1
+            images.map(|x| grid.count(self, x, self.joined(i), reach)).sum::<u32>() - 1
         };
         (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
+    }
+
+    /// Bodies whose particles are bonded to one.
+    fn joined(&self, particle: usize) -> impl Fn(u32) -> bool {
+        let (body, weights) = (self.particles[particle].body, &self.coupling[self.particles[particle].body as usize]);
+        move |other| other == body || (self.method.tied && weights[other as usize] > 0.0)
+    }
+
+    /// The nearest particles of two bodies that `wanted` takes, given the lower number first, if any are nearer than
+    /// `reach`; and their distance.
+    pub(super) fn closest(&self, reach: f64, wanted: impl Fn(u32, u32) -> bool + Sync) -> Option<(f64, [usize; 2])> {
+        let grid = Grid::new(self, reach);
+        let near = |i: usize| {
+            let own = self.particles[i].body;
+            let mut best: Option<(f64, [usize; 2])> = None;
+            grid.visit(self, self.particles[i].position, |j, distance| {
+                let other = self.particles[j].body;
+                let taken = own < other && wanted(own, other) && distance < reach;
+                if taken && best.is_none_or(|(least, _)| distance < least) {
+                    best = Some((distance, [i, j]));
+                }
+            });
+            best
+        };
+        (0..self.particles.len()).into_par_iter().filter_map(near).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
     /// Most particles that one of any body has inside the support of its kernel, with none at the very end.
     pub(super) fn most_supported(&self) -> u32 {
         let reach = 2.0 * self.smoothing_length() / ROUNDING;
         let grid = Grid::new(self, reach);
-        let count = |particle: &super::Particle| {
+        let count = |i: usize| {
+            let particle = &self.particles[i];
             let own = 2.0 * self.bodies[particle.body as usize].smoothing_length / ROUNDING;
-            grid.count(self, particle.position, particle.body, own) - 1
+            grid.count(self, particle.position, self.joined(i), own) - 1
         };
-        self.particles.par_iter().map(count).max().unwrap_or(0)
+        (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
     }
 }
 
@@ -71,24 +97,27 @@ impl Grid {
         IVec3::new(axis(0), axis(1), axis(2))
     }
 
-    /// Particles of a body within a distance, at most the grid's, of a point.
-    fn count(&self, scene: &Scene, x: DVec3, body: u32, reach: f64) -> u32 {
-        let center = (x / self.side).floor().as_ivec3();
-        let range = |k: usize| if k < scene.dimension() { -1..=1 } else { 0..=0 };
+    /// Particles of bodies within a distance, at most the grid's, of a point.
+    fn count(&self, scene: &Scene, x: DVec3, of: impl Fn(u32) -> bool, reach: f64) -> u32 {
         let mut found = 0;
+        self.visit(scene, x, |i, distance| found += u32::from(of(scene.particles[i].body) && distance < reach));
+        found
+    }
+
+    /// Calls `seen` with all particles within the grid's reach of a point, some beyond it, and their distances from it.
+    fn visit(&self, scene: &Scene, x: DVec3, mut seen: impl FnMut(usize, f64)) {
+        let center = (x / self.side).floor().as_ivec3();
+        let range = |k: usize| if k < scene.file.dimension { -1..=1 } else { 0..=0 };
         for dz in range(2) {
             for dy in range(1) {
                 for dx in range(0) {
                     let cell = self.wrapped(center + IVec3::new(dx, dy, dz));
-                    let near = |&&i: &&u32| {
-                        let other = &scene.particles[i as usize];
-                        other.body == body && self.distance(x, other.position) < reach
-                    };
-                    found += self.cells.get(&cell).map_or(0, |list| list.iter().filter(near).count()) as u32;
+                    for &i in self.cells.get(&cell).into_iter().flatten() {
+                        seen(i as usize, self.distance(x, scene.particles[i as usize].position));
+                    }
                 }
             }
         }
-        found
     }
 
     /// To the nearest periodic image.

@@ -10,7 +10,7 @@ use super::read::{Read, hint};
 use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static};
+use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, file, plasticity, quasi_static, ties};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -44,8 +44,17 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let contacts = contacts::pairs(&file, &bodies, &groups, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
-    let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, groups: &groups, refuse: &refuse };
+    let parts = Parts {
+        file: &file,
+        bodies: &bodies,
+        particles: &particles,
+        planes: &planes,
+        groups: &groups,
+        coupling: &coupling,
+        refuse: &refuse,
+    };
     let facet_pairs = parts.gaps()?;
+    ties::alone(&file, &bodies, &refuse)?;
     let obstacles = parts.obstacles(&mut constraints)?;
     let facets = parts.facets(&facet_pairs, &obstacles);
     let mut scene = Scene {
@@ -70,6 +79,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         artificial_spacing: 0.0,
         most_bonds: OnceLock::new(),
     };
+    ties::meet(&scene, &refuse)?;
     if let [only] = &groups[..] {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
@@ -381,9 +391,14 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
         if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
             return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
         }
-        refuse.unless(contact.kernel.is_some() || contact.touches() || contact.gap.is_some(), &["contact", &at], || {
-            "a contact needs kernel, potential, colour_field, zones or gap".into()
-        })?;
+        refuse.unless(
+            contact.kernel.is_some() || contact.touches() || contact.gap.is_some() || contact.tie,
+            &["contact", &at],
+            || "a contact needs kernel, potential, colour_field, zones, gap or tie".into(),
+        )?;
+        if contact.tie {
+            ties::join(&mut table, bodies, groups, (&at, contact), refuse)?;
+        }
         let Some(kernel) = contact.kernel else { continue };
         let touching = pairs(bodies, &contact.between);
         refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
@@ -396,7 +411,9 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
                 "bodies of different groups, whose formulations differ in more than numbers, have no kernel sums with each other: kernel must be 0"
                     .into()
             } else {
-                "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
+                let lagrangian = groups.iter().any(|g| g.kind() == Formulation::TotalLagrangian && g.has(file, &contact.between[0]));
+                let tie = if lagrangian { ". In its place tie = true bonds bodies that share a face" } else { "" };
+                format!("bodies have no kernel sums with each other in the reference configuration: kernel must be 0{tie}")
             }
         })?;
         for (a, b) in touching {
@@ -478,6 +495,7 @@ fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
         many_bodies: bodies.len() > 1,
         body_options: bodies.iter().any(|body| body.options != bodies[0].options),
         coupling: scene.coupling.iter().flatten().any(|&c| c != 1.0),
+        tied: lagrangian && ties::any(&scene.coupling),
         constraints: held || driven,
         symmetry: !scene.planes.is_empty(),
         periodic: scene.period.iter().any(|&p| p > 0.0),
