@@ -6,4 +6,4 @@ mod shape_block;
 mod shape_functions;
 mod strain_rate;
 mod stress;
-mod tied;
+pub mod tied;
