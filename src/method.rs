@@ -195,6 +195,8 @@ pub struct Method {
     pub body_options: bool,
     /// Some pair of bodies does not act as one through the kernel.
     pub coupling: bool,
+    /// Bonds of the reference configuration join particles of different bodies.
+    pub tied: bool,
     pub constraints: bool,
     pub symmetry: bool,
     pub periodic: bool,
@@ -239,6 +241,7 @@ impl Default for Method {
             many_bodies: false,
             body_options: false,
             coupling: false,
+            tied: false,
             constraints: false,
             symmetry: false,
             periodic: false,
@@ -298,6 +301,7 @@ pub const FLAGS: &[(&str, Condition)] = &[
     ("many_bodies", |m| m.many_bodies),
     ("body_options", |m| m.body_options),
     ("coupling", |m| m.coupling),
+    ("tied", |m| m.tied),
     ("constraints", |m| m.constraints),
     ("symmetry", |m| m.symmetry),
     ("periodic", |m| m.periodic),

@@ -5,12 +5,13 @@
 // sum V_b (u_b - u_a) (x) grad_a W_ab
 fn sum_bonds(a: u32, row: u32) -> Mat {
     let h = smoothing_length(a);
+    let index = body_index(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let count = neighbor_count[a];
     var sum = Mat();
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         let weight = bond.gradient * reference_volume[bond.b];
         sum += outer(displacement_difference(displacement_a, bond), bond.x * weight);
     }

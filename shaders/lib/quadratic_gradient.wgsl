@@ -24,12 +24,13 @@ fn quadratic_part(a: u32, m: Mat) -> Tri {
 // sum -V_b (W'/R) (u_b - u_a) (x) X_ab X_ab
 fn sum_products(a: u32, row: u32) -> Tri {
     let h = smoothing_length(a);
+    let index = body_index(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let count = neighbor_count[a];
     var sum = Tri();
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         let weight = -bond.gradient * reference_volume[bond.b];
         sum = tri_add(sum, tri_outer(displacement_difference(displacement_a, bond), sym_scale(products(bond.x), weight)));
     }

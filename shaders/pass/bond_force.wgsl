@@ -32,6 +32,7 @@ fn of_particle(a: u32, row: u32) {
 
 fn sum_bonds(a: u32, row: u32) -> Vec {
     let own_body = body_of(a);
+    let index = body_index(a);
     let center = reference_position[a];
 #if hourglass
     let displacement_a = displacement[a];
@@ -43,21 +44,34 @@ fn sum_bonds(a: u32, row: u32) -> Vec {
     var others = Vec();
     let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         let weight = bond.gradient * reference_volume[bond.b];
         let x = bond.x * weight;
         own += x;
+#if tied
+        let far = far_weight(index, a, bond.b);
+        others += mat_vec(stress_of(bond), x) * far;
+#else
         others += mat_vec(stress_of(bond), x);
+#endif
 #if quadratic_gradient
-        let difference = tri_sub(quadratic_stress[a], quadratic_stress[bond.b]);
-        others += tri_sym(difference, sym_scale(products(bond.x), -weight));
+        let products = sym_scale(products(bond.x), -weight);
+#if tied
+        others += tri_sym(quadratic_stress[a], products) - tri_sym(quadratic_stress[bond.b], products) * far;
+#else
+        others += tri_sym(tri_sub(quadratic_stress[a], quadratic_stress[bond.b]), products);
+#endif
 #endif
 #if hourglass
+#if tied
+        let both = stiffness + far * hourglass_stiffness(bond.b, body_of(bond.b));
+#else
 #if plastic
         // Bonds join particles of one body.
         let both = stiffness + hourglass_stiffness(bond.b, own_body);
 #else
         let both = 2.0 * stiffness;
+#endif
 #endif
         others -= displacement_difference(displacement_a, bond) * (both * weight);
 #endif

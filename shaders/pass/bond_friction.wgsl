@@ -15,8 +15,8 @@
 
 fn of_particle(a: u32, row: u32) {
     let own_body = body_of(a);
-    // Bonds join particles of one body.
     let options = options_of(a);
+    let index = body_index(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let velocity_a = velocity[a];
@@ -25,11 +25,15 @@ fn of_particle(a: u32, row: u32) {
     var power: real = 0.0;
     let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         // x_a - x_b
         let x = bond.x - displacement_difference(displacement_a, bond);
         let v_ba = velocity_difference(velocity_a, bond);
-        let friction = friction_of(own_body, options, h, bond, x, v_ba);
+#if tied
+        let friction = friction_of_ends(own_body, options, index, h, bond, x, v_ba);
+#else
+        let friction = friction_of(options, own_body.sound_speed, h, bond, x, v_ba);
+#endif
         sum += friction;
         power += 0.5 * inner(v_ba, friction);
     }
@@ -39,13 +43,30 @@ fn of_particle(a: u32, row: u32) {
 #endif
 }
 
-fn friction_of(own_body: Body, options: BodyOptions, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
+#if tied
+// The same for a bond that may join two bodies: with the means of its ends, so that both feel the same Pi and momentum is kept,
+// with m_b over the mean density in the place of V_b, and without the weight of its end a.
+fn friction_of_ends(own: Body, of_a: BodyOptions, body_a: u32, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
+    let other = body_of(bond.b);
+    var options = of_a;
+#if body_options
+    let of_b = options_of(bond.b);
+    options.alpha = 0.5 * (options.alpha + of_b.alpha);
+    options.beta = 0.5 * (options.beta + of_b.beta);
+#endif
+    let sound_speed = 0.5 * (own.sound_speed + other.sound_speed);
+    let share = other.density / (0.5 * (own.density + other.density)) / pair_coupling(body_a, bond.b);
+    return friction_of(options, sound_speed, h, bond, x, v_ba) * share;
+}
+#endif
+
+fn friction_of(options: BodyOptions, sound_speed: real, h: real, bond: Bond, x: Vec, v_ba: Vec) -> Vec {
     let square = inner(x, x);
     let mu = min(-h * inner(v_ba, x) / (square + params.softening * h * h), 0.0);
-    let pi = (options.beta * mu - options.alpha * own_body.sound_speed) * mu;
+    let pi = (options.beta * mu - options.alpha * sound_speed) * mu;
     let weight = bond.gradient * reference_volume[bond.b];
     let reference = sqrt(inner(bond.x, bond.x));
-    // The slope times V_b; m_b over rho_0 is V_b.
+    // The slope times V_b; within a body m_b over rho_0 is V_b.
     return x * (-pi * weight * reference / max(sqrt(square), 1e-6 * h));
 }
 

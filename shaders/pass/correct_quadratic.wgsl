@@ -25,11 +25,12 @@ fn of_particle(a: u32, row: u32) {
 
 // sum w p (x) p with lengths in units of h, so that its numbers are alike.
 fn moment_of(a: u32, row: u32, h: real) -> array<real, TERMS * TERMS> {
+    let index = body_index(a);
     let center = reference_position[a];
     let count = neighbor_count[a];
     var moment = array<real, TERMS * TERMS>();
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         let weight = bond.gradient * reference_volume[bond.b];
         let d = bond.x * (-1.0 / h);
         let pairs = products(d);

@@ -8,11 +8,12 @@
 
 fn of_particle(a: u32, row: u32) {
     let h = smoothing_length(a);
+    let index = body_index(a);
     let center = reference_position[a];
     let count = neighbor_count[a];
     var moment = Mat();
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         moment -= outer(bond.x, bond.x * (bond.gradient * reference_volume[bond.b]));
     }
     reference_correction[a] = sym_part(inverse_or(moment, mat_identity()));

@@ -18,6 +18,7 @@
 
 fn of_particle(a: u32, row: u32) {
     let own_body = body_of(a);
+    let index = body_index(a);
     let center = reference_position[a];
     let displacement_a = displacement[a];
     let gradient = corrected(a, sum_bonds(a, row));
@@ -25,7 +26,7 @@ fn of_particle(a: u32, row: u32) {
     var sum: real = 0.0;
     let h = smoothing_length(a);
     for (var k = 0u; k < count; k++) {
-        let bond = bond_of(center, h, neighbors[k * params.chunk + row]);
+        let bond = bond_of(index, center, h, neighbors[k * params.chunk + row]);
         let stray = displacement_difference(displacement_a, bond) + mat_vec(gradient, bond.x);
         sum += inner(stray, stray) * (-bond.gradient * reference_volume[bond.b]);
     }

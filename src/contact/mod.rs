@@ -53,11 +53,15 @@ potentials! {
 }
 
 /// Laws beside the potentials: word in a scene, and what they do.
-pub const OTHERS: [(&str, &str); 4] = [
+pub const OTHERS: [(&str, &str); 5] = [
     ("colour_field", "(k/2) sum V <c - c0>^2 of the other body's colour c: smooth over many particles"),
     ("zones", "Fuller's forces along estimated normals: keep momentum, neither energy nor angular momentum"),
     ("gap", "energy of a smoothed distance between exact surfaces, with friction: Total Lagrangian, see src/facet.rs"),
     ("none", "nothing acts between the two, and that is meant: they pass through each other without a warning"),
+    (
+        "tie",
+        "no contact but a bond: bodies that share a face go on in each other, each of its own material: Total Lagrangian, see src/bond.rs",
+    ),
 ];
 
 /// The laws of contact that a scene names.

@@ -8,6 +8,8 @@
 //! terms that belong to one particle were put together in [`super::deform`]. Where a body has flowed, each end has its
 //! own alpha, see [`hourglass_stiffness`].
 //!
+//! Where bodies are tied, each part of a bond's force has the weight of the end whose part it is: see [`crate::bond`].
+//!
 //! The quadratic-exact gradient adds sum (P_a C2_a - P_b C2_b) V_b w X_ab X_ab, see [`super::correct_quadratic`].
 //!
 //! Twin: shaders/pass/bond_force.wgsl
@@ -15,7 +17,7 @@
 use super::Stage;
 use super::declaration::{Declaration, LISTED, Runs, always, when};
 use super::write::fill;
-use crate::bond::{Source, displacement_difference, hourglass_stiffness, with_bonds};
+use crate::bond::{Source, displacement_difference, far_weight, hourglass_stiffness, with_bonds};
 use crate::method::Gradient;
 use crate::pair::mirror_tensor;
 use crate::state::State;
@@ -40,7 +42,7 @@ pub const PASS: Declaration = {
             when(|m| m.hourglass, &[Displacement]),
             when(|m| m.hourglass && m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
             when(|m| m.hourglass && m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
-            when(|m| m.hourglass && m.plastic() && m.body_options && m.many_bodies, &[Body]),
+            when(|m| m.tied || (m.hourglass && m.plastic() && m.body_options && m.many_bodies), &[Body]),
             when(|m| m.quadratic_gradient(), &[QuadraticStress]),
         ],
         writes: &[always(&[Acceleration])],
@@ -57,8 +59,8 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
     // `own` is the sum of the kernel gradients alone: a's own stress multiplies it once, after the loop.
     let (mut own, mut others) = (S::Vec::default(), S::Vec::default());
     let body = state.body(a);
-    // Where nothing flows, both ends of a bond have the same stiffness.
-    let (stiffness, plastic) = (hourglass_stiffness(state, a), state.method.plastic());
+    // Where nothing flows and no bodies are tied, both ends of a bond have the same stiffness.
+    let (stiffness, differ) = (hourglass_stiffness(state, a), state.method.plastic() || state.method.tied);
     for part in B::parts(state, a) {
         let block = B::load(state, a, part.clone());
         for lane in 0..part.len() {
@@ -68,9 +70,11 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec {
                 stress = mirror_tensor::<S>(&state.params, bond.image, stress);
             }
             own += bond.row.gradient;
-            others += S::mat_vec(stress, bond.row.gradient);
+            let far = far_weight::<S, B>(state, a, bond.b);
+            let carried = S::mat_vec(stress, bond.row.gradient);
+            others += if B::TIES { carried * far } else { carried };
             if state.method.hourglass {
-                let both = stiffness + if plastic { hourglass_stiffness(state, bond.b) } else { stiffness };
+                let both = stiffness + if differ { hourglass_stiffness(state, bond.b) * far } else { stiffness };
                 others = others - displacement_difference::<S, B>(state, a, &bond) * (both * bond.row.weight);
             }
         }
@@ -89,7 +93,7 @@ fn quadratic_part<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> S::Vec 
         for lane in 0..part.len() {
             let bond = B::bond(&block, lane);
             let products = S::products(bond.row.x) * (S::Real::of(-1.0) * bond.row.weight);
-            sum += S::tri_sym(stress[a] - stress[bond.b], products);
+            sum += S::tri_sym(stress[a] - stress[bond.b] * far_weight::<S, B>(state, a, bond.b), products);
         }
     }
     sum

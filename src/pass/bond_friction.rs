@@ -9,7 +9,7 @@
 use super::Stage;
 use super::declaration::{Declaration, LISTED, Runs, always, when};
 use crate::bond::{Bond, Source, displacement_difference, with_bonds};
-use crate::pair::mirror_vector;
+use crate::pair::{mirror_vector, pair_coupling};
 use crate::state::State;
 use crate::tensor::{Real, Space};
 
@@ -23,7 +23,7 @@ pub const PASS: Declaration = {
             always(&[ReferencePosition, Displacement, Velocity, Acceleration, NeighborCount, Neighbors]),
             when(|m| m.many_bodies, &[Body]),
         ],
-        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement, Velocity]), when(|m| m.tied, &[Body])],
         writes: &[always(&[Acceleration]), when(|m| m.dissipated_power(), &[DissipatedPower])],
     }
 };
@@ -58,20 +58,36 @@ fn sum<S: Space, B: Source<S>>(state: &State<S>, a: usize) -> (S::Vec, S::Real) 
 
 #[inline(always)]
 fn friction<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>, v_ba: S::Vec) -> S::Vec {
-    let (params, body) = (&state.params, state.body(a));
+    let params = &state.params;
     let h = state.smoothing_length(a);
     // x_a - x_b
     let x = bond.row.x - displacement_difference::<S, B>(state, a, bond);
     let square = S::inner(x, x);
     let mu = (h * S::Real::of(-1.0) * S::inner(v_ba, x) / (square + params.softening * h * h)).min(S::Real::of(0.0));
-    // Bonds join particles of one body.
-    let pi = (state.beta(a) * mu - state.alpha(a) * body.sound_speed) * mu;
+    let [alpha, beta, sound_speed, share] = if B::TIES && state.method.tied {
+        of_ends(state, a, bond.b)
+    } else {
+        [state.alpha(a), state.beta(a), state.body(a).sound_speed, S::Real::of(1.0)]
+    };
+    let pi = (beta * mu - alpha * sound_speed) * mu * share;
     let reference = S::inner(bond.row.x, bond.row.x).sqrt();
-    // The slope times V_b; m_b over rho_0 is V_b.
+    // The slope times V_b; within a body m_b over rho_0 is V_b.
     x * (S::Real::of(-1.0) * pi * bond.row.weight * reference / square.sqrt().max(S::Real::of(1e-6) * h))
 }
 
 /// v_b - v_a, the neighbour's velocity mirrored if it is an image.
+/// alpha, beta and the speed of sound of a bond that may join two bodies: the means of its ends, so that both feel the same Pi
+/// and momentum is kept; and what the row's weight is to be multiplied by, so that it holds m_b over the mean density, with
+/// no weight of an end.
+#[inline(always)]
+fn of_ends<S: Space>(state: &State<S>, a: usize, b: usize) -> [S::Real; 4] {
+    let half = S::Real::of(0.5);
+    let (own, other) = (state.body(a), state.body(b));
+    let share = other.density / (half * (own.density + other.density)) / pair_coupling(state, a, b);
+    let mean = |one: S::Real, two: S::Real| half * (one + two);
+    [mean(state.alpha(a), state.alpha(b)), mean(state.beta(a), state.beta(b)), mean(own.sound_speed, other.sound_speed), share]
+}
+
 #[inline(always)]
 fn velocity_difference<S: Space, B: Source<S>>(state: &State<S>, a: usize, bond: &Bond<S>) -> S::Vec {
     let velocity = &state.columns.velocity;

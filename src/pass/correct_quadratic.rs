@@ -19,7 +19,7 @@ pub const PASS: Declaration = {
         entries: LISTED,
         runs: Runs::Always,
         own: &[always(&[ReferencePosition, ReferenceCorrection, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
-        neighbours: &[always(&[ReferencePosition, ReferenceVolume])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume]), when(|m| m.tied, &[Body])],
         writes: &[always(&[LinearCoefficient, QuadraticCoefficient])],
     }
 };

@@ -16,7 +16,7 @@ pub const PASS: Declaration = {
         entries: LISTED,
         runs: Runs::Always,
         own: &[always(&[ReferencePosition, NeighborCount, Neighbors]), when(|m| m.many_bodies, &[Body])],
-        neighbours: &[always(&[ReferencePosition, ReferenceVolume])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume]), when(|m| m.tied, &[Body])],
         writes: &[always(&[ReferenceCorrection])],
     }
 };

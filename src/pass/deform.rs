@@ -37,7 +37,7 @@ pub const PASS: Declaration = {
             when(|m| m.memory() && m.heated(), &[Temperature]),
             when(|m| m.memory() && m.dissipated_energy, &[DisplacementGradient, DissipatedEnergy]),
         ],
-        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement]), when(|m| m.tied, &[Body])],
         writes: &[
             always(&[DisplacementGradient, BondStress]),
             when(|m| m.memory(), &[InelasticStrain]),

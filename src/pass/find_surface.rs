@@ -37,12 +37,13 @@ fn kind_of<S: Space>(state: &State<S>, a: usize, stage: Stage) -> u32 {
     }
 }
 
-/// Neighbours of its body in the kernel's range, and x_a - x_b.
+/// Neighbours of its body, or of one that it is tied to, in the kernel's range, and x_a - x_b. Where bodies are tied, a list of the
+/// reference configuration has no others.
 pub(super) fn own_neighbors<S: Space>(state: &State<S>, a: usize, reference: bool) -> impl Iterator<Item = (usize, S::Vec)> {
     let reach = S::Real::of(2.0) * state.smoothing_length(a);
     state.neighbors_of(a).iter().filter_map(move |&b| {
         let x = if reference { reference_separation(state, a, b) } else { separation(state, a, b) };
-        let own = state.body_index(a) == state.body_index(b as usize);
+        let own = state.method.tied || state.body_index(a) == state.body_index(b as usize);
         (own && S::inner(x, x) < reach * reach).then_some((b as usize, x))
     })
 }

@@ -22,7 +22,7 @@ pub const PASS: Declaration = {
             when(|m| m.plastic() && m.quasi_static.is_some(), &[EquilibriumPlasticStrain]),
             when(|m| m.plastic() && m.quasi_static.is_none(), &[EquivalentPlasticStrain]),
         ],
-        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement])],
+        neighbours: &[always(&[ReferencePosition, ReferenceVolume, Displacement]), when(|m| m.tied, &[Body])],
         writes: &[always(&[HourglassEnergy])],
     }
 };

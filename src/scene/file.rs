@@ -350,6 +350,9 @@ pub struct ContactTable {
     /// Nothing acts between the two, and that is meant: they pass through each other without a warning.
     #[serde(default)]
     pub none: bool,
+    /// Bonded where they share a face, each of its own material. Total Lagrangian only.
+    #[serde(default)]
+    pub tie: bool,
 }
 
 impl ContactTable {

@@ -94,7 +94,7 @@ fn structure(own: &FormulationTable, other: &FormulationTable) -> FormulationTab
 }
 
 /// The first key in which two formulations differ so that their bodies are no group.
-fn difference(a: &FormulationTable, b: &FormulationTable) -> &'static str {
+pub(super) fn difference(a: &FormulationTable, b: &FormulationTable) -> &'static str {
     let (a, b) = (structure(a, b), structure(b, a));
     let keys = [
         ("kind", a.kind == b.kind),

@@ -162,10 +162,14 @@ impl Around<'_> {
     /// The particles of a particle's own body within reach, itself and mirror images among them: index, and the way to them.
     fn ways(&self, i: usize, reach: f64) -> Vec<(usize, DVec3)> {
         let (scene, particle) = (self.scene, &self.scene.particles[i]);
-        let mut ways = Vec::new();
+        let (mut ways, joined) = (Vec::new(), scene.joined(i));
         for image in 0..1u32 << scene.planes.len() {
             let x = mirrored(&scene.planes, image, particle.position);
-            self.grid.visit(scene, x, particle.body, reach, |j, way| ways.push((j, unmirrored(scene, image, way))));
+            self.grid.visit(scene, x, reach, |j, way| {
+                if joined(scene.particles[j].body) {
+                    ways.push((j, unmirrored(scene, image, way)));
+                }
+            });
         }
         ways
     }

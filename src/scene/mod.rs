@@ -37,6 +37,7 @@ mod state;
 pub mod strangers;
 pub mod study;
 mod surfaces;
+mod ties;
 mod volume;
 mod warn;
 pub mod words;

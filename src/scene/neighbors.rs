@@ -10,27 +10,54 @@ use std::collections::HashMap;
 const ROUNDING: f64 = 1.0 + 1e-5;
 
 impl Scene {
-    /// Most particles of its own body that any particle has within a distance, mirror images included.
+    /// Most particles of its own body and of those tied to it that any particle has within a distance, mirror images included.
     pub(super) fn most_neighbors(&self, reach: f64) -> u32 {
         let reach = reach * ROUNDING;
         let grid = Grid::new(self, reach);
         let count = |i: usize| {
             let x = self.particles[i].position;
             let images = (0..1u32 << self.planes.len()).map(|image| mirrored(&self.planes, image, x));
-            images.map(|x| grid.count(self, x, self.particles[i].body, reach)).sum::<u32>() - 1
+            images.map(|x| grid.count(self, x, self.joined(i), reach)).sum::<u32>() - 1
         };
         (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
+    }
+
+    /// Bodies whose particles are bonded to one.
+    pub(super) fn joined(&self, particle: usize) -> impl Fn(u32) -> bool {
+        let (body, weights) = (self.particles[particle].body, &self.coupling[self.particles[particle].body as usize]);
+        move |other| other == body || (self.method.tied && weights[other as usize] > 0.0)
+    }
+
+    /// The nearest particles of two bodies that `wanted` takes, given the lower number first, if any are nearer than
+    /// `reach`; and their distance.
+    pub(super) fn closest(&self, reach: f64, wanted: impl Fn(u32, u32) -> bool + Sync) -> Option<(f64, [usize; 2])> {
+        let grid = Grid::new(self, reach);
+        let near = |i: usize| {
+            let own = self.particles[i].body;
+            let mut best: Option<(f64, [usize; 2])> = None;
+            grid.visit(self, self.particles[i].position, reach, |j, way| {
+                let distance = way.length();
+                let other = self.particles[j].body;
+                let taken = own < other && wanted(own, other);
+                if taken && best.is_none_or(|(least, _)| distance < least) {
+                    best = Some((distance, [i, j]));
+                }
+            });
+            best
+        };
+        (0..self.particles.len()).into_par_iter().filter_map(near).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
     /// Most particles that one of any body has inside the support of its kernel, with none at the very end.
     pub(super) fn most_supported(&self) -> u32 {
         let reach = 2.0 * self.smoothing_length() / ROUNDING;
         let grid = Grid::new(self, reach);
-        let count = |particle: &super::Particle| {
+        let count = |i: usize| {
+            let particle = &self.particles[i];
             let own = 2.0 * self.bodies[particle.body as usize].smoothing_length / ROUNDING;
-            grid.count(self, particle.position, particle.body, own) - 1
+            grid.count(self, particle.position, self.joined(i), own) - 1
         };
-        self.particles.par_iter().map(count).max().unwrap_or(0)
+        (0..self.particles.len()).into_par_iter().map(count).max().unwrap_or(0)
     }
 }
 
@@ -71,15 +98,15 @@ impl Grid {
         IVec3::new(axis(0), axis(1), axis(2))
     }
 
-    /// Particles of a body within a distance, at most the grid's, of a point.
-    fn count(&self, scene: &Scene, x: DVec3, body: u32, reach: f64) -> u32 {
+    /// Particles of bodies within a distance, at most the grid's, of a point.
+    fn count(&self, scene: &Scene, x: DVec3, of: impl Fn(u32) -> bool, reach: f64) -> u32 {
         let mut found = 0;
-        self.visit(scene, x, body, reach, |_, _| found += 1);
+        self.visit(scene, x, reach, |i, _| found += u32::from(of(scene.particles[i].body)));
         found
     }
 
-    /// Hands on the index of each of them, and the way to it from the point.
-    pub fn visit(&self, scene: &Scene, x: DVec3, body: u32, reach: f64, mut hand_on: impl FnMut(usize, DVec3)) {
+    /// Hands on the index of each particle within a distance, at most the grid's, of a point, and the way to it from there.
+    pub fn visit(&self, scene: &Scene, x: DVec3, reach: f64, mut hand_on: impl FnMut(usize, DVec3)) {
         let center = (x / self.side).floor().as_ivec3();
         let range = |k: usize| if k < scene.dimension() { -1..=1 } else { 0..=0 };
         for dz in range(2) {
@@ -87,9 +114,8 @@ impl Grid {
                 for dx in range(0) {
                     let cell = self.wrapped(center + IVec3::new(dx, dy, dz));
                     for &i in self.cells.get(&cell).into_iter().flatten() {
-                        let other = &scene.particles[i as usize];
-                        let way = self.way(x, other.position);
-                        if other.body == body && way.length() < reach {
+                        let way = self.way(x, scene.particles[i as usize].position);
+                        if way.length() < reach {
                             hand_on(i as usize, way);
                         }
                     }

@@ -12,7 +12,9 @@ use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
 use super::warn::warnings;
-use super::{Near, Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, plasticity, quasi_static, strangers};
+use super::{
+    Near, Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, plasticity, quasi_static, strangers, ties,
+};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -47,8 +49,17 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     let contacts = contacts::pairs(&file, &bodies, &groups, &refuse)?;
     let planes = planes(&file, &refuse)?;
     let period = period(&file, &bodies, &refuse)?;
-    let parts = Parts { file: &file, bodies: &bodies, particles: &particles, planes: &planes, groups: &groups, refuse: &refuse };
+    let parts = Parts {
+        file: &file,
+        bodies: &bodies,
+        particles: &particles,
+        planes: &planes,
+        groups: &groups,
+        coupling: &coupling,
+        refuse: &refuse,
+    };
     let facet_pairs = parts.gaps()?;
+    ties::alone(&file, &bodies, &refuse)?;
     let laws = strangers::Laws { coupling: &coupling, contacts: &contacts, gaps: &facet_pairs };
     let apart = strangers::meant_apart(&file, &bodies, &laws, &refuse)?;
     strangers::no_overlap(&file, &bodies, &particles, &apart, &refuse)?;
@@ -79,6 +90,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         warnings: Vec::new(),
         most_bonds: OnceLock::new(),
     };
+    ties::meet(&scene, &refuse)?;
     if let [only] = &groups[..] {
         let named = Refuse { formulation: only.name.as_deref(), ..refuse };
         scene.method = method(&scene, &named)?;
@@ -378,13 +390,16 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
         if let Some(word) = contact.between.iter().find(|word| named(bodies, word).is_empty()) {
             return Err(refuse.at(&path, format!("no body is named `{word}`{}", hint(word, &names(bodies)))));
         }
-        let acts = contact.kernel.is_some() || contact.touches() || contact.gap.is_some();
+        let acts = contact.kernel.is_some() || contact.touches() || contact.gap.is_some() || contact.tie;
         refuse.unless(acts || contact.none, &["contact", &at], || {
-            "a contact needs kernel, potential, colour_field, zones, gap or none".into()
+            "a contact needs kernel, potential, colour_field, zones, gap, tie or none".into()
         })?;
         refuse.unless(!(acts && contact.none), &["contact", &at, "none"], || {
-            "none = true says that nothing acts between the two: no kernel and no law goes beside it".into()
+            "none = true says that nothing acts between the two: no kernel, no law and no tie goes beside it".into()
         })?;
+        if contact.tie {
+            ties::join(&mut table, bodies, groups, (&at, contact), refuse)?;
+        }
         let Some(kernel) = contact.kernel.or(contact.none.then_some(0.0)) else { continue };
         let touching = pairs(bodies, &contact.between);
         refuse.unless(touching.iter().all(|(a, b)| a != b), &path, || "a body cannot be uncoupled from itself".into())?;
@@ -397,7 +412,9 @@ fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse
                 "bodies of different groups, whose formulations differ in more than numbers, have no kernel sums with each other: kernel must be 0"
                     .into()
             } else {
-                "bodies have no kernel sums with each other in the reference configuration: kernel must be 0".into()
+                let lagrangian = groups.iter().any(|g| g.kind() == Formulation::TotalLagrangian && g.has(file, &contact.between[0]));
+                let tie = if lagrangian { ". In its place tie = true bonds bodies that share a face" } else { "" };
+                format!("bodies have no kernel sums with each other in the reference configuration: kernel must be 0{tie}")
             }
         })?;
         for (a, b) in touching {
@@ -479,6 +496,7 @@ pub(super) fn method(scene: &Scene, refuse: &Refuse) -> Result<Method, String> {
         many_bodies: bodies.len() > 1,
         body_options: bodies.iter().any(|body| body.options != bodies[0].options),
         coupling: scene.coupling.iter().flatten().any(|&c| c != 1.0),
+        tied: lagrangian && ties::any(&scene.coupling),
         constraints: held || driven,
         symmetry: !scene.planes.is_empty(),
         periodic: scene.period.iter().any(|&p| p > 0.0),

@@ -20,6 +20,7 @@ pub(super) struct Parts<'a> {
     pub particles: &'a [Particle],
     pub planes: &'a [Plane],
     pub groups: &'a [Group],
+    pub coupling: &'a [Vec<f64>],
     pub refuse: &'a Refuse<'a>,
 }
 
@@ -217,7 +218,7 @@ impl Parts<'_> {
         typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group))
     }
 
-    /// Facets of the bodies that touch something, in order of their owners; none on mirror planes.
+    /// Facets of the bodies that touch something, in order of their owners; none on mirror planes, nor where a tied body goes on.
     pub fn facets(&self, gaps: &[Vec<FacetPair<f64>>], obstacles: &[SceneObstacle]) -> Vec<SceneFacet> {
         let mut list = Vec::new();
         for (k, (typed, body)) in self.file.body.iter().zip(self.bodies).enumerate() {
@@ -228,6 +229,11 @@ impl Parts<'_> {
             let anchor = typed.lattice_anchor(body.spacing, self.file.dimension);
             let mut pieces = facets(&typed.shape, body.spacing, anchor, self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
+            let tied = super::ties::of(self.coupling, k).map(|other| &self.file.body[other].shape).collect::<Vec<_>>();
+            pieces.retain(|piece| {
+                let beyond = piece.position + 0.5 * body.spacing * piece.normal;
+                !tied.iter().any(|shape| shape.distance(beyond, self.file.dimension) < 0.0)
+            });
             let own = self.particles.iter().enumerate().filter(|(_, p)| p.body as usize == k);
             // A particle that lies deeper than this carries no facet.
             let deep = -2.0 * body.spacing;

@@ -137,13 +137,14 @@ pub fn random_lagrangian(random: &mut Random) -> Method {
     let eulerian = random_method(random);
     Method {
         formulation: Formulation::TotalLagrangian,
+        tied: eulerian.many_bodies && random.coin(),
         hourglass: random.coin(),
         density: Density::Continuity,
         gradient: [Gradient::Plain, Gradient::Adjoint][random.below(2)],
         integrator: if memory { Integrator::Leapfrog } else { eulerian.integrator },
         many_bodies: eulerian.many_bodies || laws.len() > 1,
         shear: true,
-        viscosity: false,
+        viscosity: random.coin(),
         xsph: false,
         velocity_filter: false,
         artificial_stress: None,
@@ -170,6 +171,8 @@ pub fn random_corrected(random: &mut Random) -> Method {
     Method {
         formulation: Formulation::CorrectedKernel,
         corrected_kernel: Some(options),
+        tied: false,
+        viscosity: false,
         hourglass: false,
         gradient: Gradient::Plain,
         dissipated_energy: false,

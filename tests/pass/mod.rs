@@ -6,3 +6,4 @@ mod shape_block;
 mod shape_functions;
 mod strain_rate;
 mod stress;
+pub mod tied;

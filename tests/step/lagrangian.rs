@@ -134,7 +134,7 @@ fn what_does_not_go_together_is_refused_in_one_sentence() {
         (&[J2[0], J2[1], "formulation.kind='corrected_kernel'"], "needs formulation.kind `eulerian` or `total_lagrangian`"),
         (&["formulation.gradient='quadratic'", "symmetry=[{ point = [0, 0], normal = [1, 0] }]"], "does not see mirror images"),
         (&[TOUCH, "symmetry=[{ point = [0, 0], normal = [1, 0] }]"], "does not see mirror images"),
-        (&["contact=[{ between = ['block', 'block'] }]"], "needs kernel, potential, colour_field, zones, gap or none"),
+        (&["contact=[{ between = ['block', 'block'] }]"], "needs kernel, potential, colour_field, zones, gap, tie or none"),
         (&["contact=[{ between = ['block', 'block'], potential = { law = 'barrier', stiffness = 0, range = 1 } }]"], "positive"),
     ];
     for (changes, sentence) in cases {

@@ -6,3 +6,4 @@ mod elastic;
 pub mod eulerian;
 mod groups;
 mod lagrangian;
+mod tied;

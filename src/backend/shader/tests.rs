@@ -150,12 +150,13 @@ fn methods() -> Vec<Method> {
 fn lagrangian_methods(dimension: usize) -> Vec<Method> {
     use crate::method::{Density, Descent, Formulation, Gradient, Integrator};
     use crate::smoothing::Smoothing;
-    let switches: [fn(&mut Method); 11] = [
+    let switches: [fn(&mut Method); 12] = [
         |_| (),
         |m| m.hourglass = true,
         |m| m.gradient = Gradient::Plain,
         |m| m.many_bodies = true,
         |m| (m.many_bodies, m.coupling) = (true, true),
+        |m| (m.many_bodies, m.coupling, m.tied, m.viscosity) = (true, true, true, true),
         |m| m.symmetry = true,
         |m| m.periodic = true,
         |m| m.dissipated_energy = m.memory() && m.quasi_static.is_none(),
@@ -202,7 +203,14 @@ fn corrected_methods(dimension: usize) -> Vec<Method> {
         let options = CorrectedKernel { correction: k / 6 % 2 == 0, configuration, deformation, velocity_gradient };
         let integrator = if method.memory() { Integrator::Leapfrog } else { Integrator::SspRk3 };
         let (formulation, corrected_kernel) = (Formulation::CorrectedKernel, Some(options));
-        let plain = Method { hourglass: false, gradient: Gradient::Plain, dissipated_energy: false, ..method };
+        let plain = Method {
+            hourglass: false,
+            gradient: Gradient::Plain,
+            dissipated_energy: false,
+            tied: false,
+            viscosity: false,
+            ..method
+        };
         list.push(Method { formulation, corrected_kernel, integrator, ..plain });
     }
     list

@@ -251,6 +251,7 @@ fn laws(contact: &ContactTable) -> Vec<&'static str> {
         ("gap", contact.gap.is_some()),
         ("colour_field", contact.colour_field.is_some()),
         ("zones", contact.zones.is_some()),
+        ("tie", contact.tie),
     ];
     all.into_iter().filter(|(_, on)| *on).map(|(word, _)| word).collect()
 }

@@ -27,6 +27,8 @@ pub struct Case {
     pub compensated: bool,
     /// Between the two blocks, in spacings.
     pub gap: f64,
+    /// The bodies are bonded where they meet, of one lattice.
+    pub tied: bool,
     /// The second body has a formulation of its own: the case is what acts between the two.
     pub apart: bool,
     /// Lines of the scene: those of no table, of the formulation, and of the time.
@@ -54,6 +56,7 @@ const BARE: Case = Case {
     second: None,
     compensated: false,
     gap: GAP,
+    tied: false,
     apart: false,
     top: "",
     formulation: "",
@@ -218,6 +221,46 @@ pub fn cases(dimension: usize) -> Vec<Case> {
             compensated: true,
             laws: ["j2, power", "maxwell"],
             formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"",
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, tied bodies that differ, j2 and neo-hookean, viscosity, heat, planes",
+            bodies: 2,
+            planes: dimension,
+            tied: true,
+            laws: ["j2, linear", "neo_hookean"],
+            formulation: "kind = \"total_lagrangian\"\nviscosity = { alpha = 0.4 }\ndissipated_energy = true",
+            second: Some(OTHER),
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, rk2, tied bodies, viscosity, quadratic gradient",
+            units: STEEL,
+            bodies: 2,
+            tied: true,
+            laws: ["neo_hookean", "st_venant_kirchhoff"],
+            formulation: "kind = \"total_lagrangian\"\ngradient = \"quadratic\"\nviscosity = { alpha = 2.0, beta = 0.5 }",
+            time: "integrator = \"rk2\"",
+            ..BARE
+        },
+        Case {
+            name: "fire, tied bodies, j2, periodic",
+            bodies: 2,
+            periodic: true,
+            tied: true,
+            laws: ["j2, perfect", "st_venant_kirchhoff"],
+            formulation: "kind = \"total_lagrangian\"",
+            time: FIRE,
+            ..BARE
+        },
+        Case {
+            name: "lagrangian, tied bodies, zones of the first on itself",
+            bodies: 2,
+            tied: true,
+            laws: ["neo_hookean", "neo_hookean"],
+            top: "contact = [{ between = [\"first\", \"second\"], tie = true },
+                { between = [\"first\", \"first\"], zones = { radius = 2, stiffness = 1e-3, normals = \"initial\" } }]",
+            formulation: "kind = \"total_lagrangian\"",
             ..BARE
         },
         Case {
@@ -623,16 +666,20 @@ impl Case {
         }
         text += &self.block("first", 0.0, first, 1.0);
         if self.bodies == 2 {
-            text += &self.block("second", first[0] + self.gap, second, FINER);
+            let (gap, spacing) = if self.tied { (0.0, 1.0) } else { (self.gap, FINER) };
+            text += &self.block("second", first[0] + gap, second, spacing);
             if self.apart {
                 text += "formulation = \"other\"\n";
             }
         }
         text += &self.material("first", 1.0);
         text += &self.material("second", 2.2);
-        // Through the reference configuration, bodies have nothing to do with each other.
+        // Through the reference configuration, bodies that are not tied have nothing to do with each other.
         if self.bodies == 2 && self.laws[0].is_empty() && !self.top.contains("contact") {
             text += "[[contact]]\nbetween = [\"first\", \"second\"]\nkernel = 0.6\n";
+        }
+        if self.tied && !self.top.contains("contact") {
+            text += "[[contact]]\nbetween = [\"first\", \"second\"]\ntie = true\n";
         }
         if self.boundary {
             text += &self.boundaries();
