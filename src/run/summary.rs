@@ -1,5 +1,6 @@
 //! What a scene used and cost.
 
+use super::{balance, watch};
 use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
 use crate::fields::Field;
@@ -39,17 +40,26 @@ pub struct Summary {
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
-    /// What was said to standard error beside the results.
+    pub said: Said,
+}
+
+/// What a run says of itself beside the results.
+#[derive(Debug, Clone)]
+pub struct Said {
+    /// What was said to standard error.
     pub warnings: Vec<String>,
+    pub energy: watch::Report,
+    /// Balance of forces, where equilibrium is sought.
+    pub balance: Option<balance::Report>,
 }
 
 impl Summary {
     pub fn new(
         scene: &Scene,
         backend: &mut dyn Backend,
-        steps: u32,
-        lists_built: u32,
+        (steps, lists_built): (u32, u32),
         watch: &Stopwatch,
+        said: Said,
     ) -> Result<Self, String> {
         let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
         let forces = step::step(&scene.groups()[0].method).iter().filter(|call| call.pass.is_force()).count() as u64;
@@ -69,7 +79,7 @@ impl Summary {
             seconds,
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
-            warnings: scene.warnings.clone(),
+            said,
         })
     }
 
@@ -79,7 +89,7 @@ impl Summary {
     }
 
     pub fn text(&self) -> String {
-        format!(
+        let costs = format!(
             "{} particles with {:.1} neighbours, {} passes a step, {:.0} bytes a particle\n\
              {}\n\
              {} steps, {} neighbour lists, {:.2} s: {:.3e} particle-updates a second",
@@ -92,7 +102,9 @@ impl Summary {
             self.lists_built,
             self.seconds,
             self.updates_per_second(),
-        )
+        );
+        let lines = [Some(costs), Some(self.said.energy.text()), self.said.balance.as_ref().map(|balance| balance.text.clone())];
+        lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
     pub fn json(&self, scene: &Scene) -> String {
@@ -102,7 +114,7 @@ impl Summary {
             "lists_built": self.lists_built, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
             "seconds": self.seconds, "processor_seconds": self.processor_seconds,
             "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
-            "warnings": self.warnings,
+            "warnings": self.said.warnings, "energy": self.said.energy.json(), "balance": self.said.balance.as_ref().map(balance::Report::json),
         });
         format!("{value:#}\n")
     }

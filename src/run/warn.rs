@@ -9,10 +9,13 @@ static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
 /// Says the warnings of a scene. They come out also where a run is told to be quiet, which spares progress and summary alone.
 pub(super) fn say(scene: &Scene) {
+    scene.warnings.iter().for_each(|warning| say_one(warning));
+}
+
+/// Says a warning that the process has not said yet.
+pub(super) fn say_one(warning: &str) {
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
-    for warning in &scene.warnings {
-        if said.insert(warning.clone()) {
-            eprintln!("lithosph: warning: {warning}");
-        }
+    if said.insert(warning.into()) {
+        eprintln!("lithosph: warning: {warning}");
     }
 }
