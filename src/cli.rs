@@ -6,6 +6,7 @@ mod study;
 use crate::backend::Choice;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
+use crate::scene::file::EnergyWatch;
 use crate::{check, contact, fields, material, observable, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use say::say;
@@ -50,6 +51,26 @@ enum BackendWord {
 enum PrecisionWord {
     F32,
     F64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum EnergyWord {
+    /// Warn at 1 % of drift, stop where the scene says, or at 10 %.
+    Stop,
+    /// Warn and go on.
+    Warn,
+    /// Sum no energies.
+    Off,
+}
+
+impl EnergyWord {
+    fn watch(self) -> EnergyWatch {
+        match self {
+            Self::Stop => EnergyWatch::Stop,
+            Self::Warn => EnergyWatch::Warn,
+            Self::Off => EnergyWatch::Off,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -111,6 +132,9 @@ struct RunArgs {
     /// Go on from the checkpoint in this output folder.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "variant", "set", "out", "force"])]
     resume: Option<PathBuf>,
+    /// When the energy drifts, in place of the scene's `watch.energy`.
+    #[arg(long, value_enum, value_name = "WORD")]
+    energy: Option<EnergyWord>,
     #[command(flatten)]
     place: Where,
 }
@@ -201,8 +225,15 @@ pub fn main() -> i32 {
 
 fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
     args.place.set_threads()?;
-    let options =
-        Options { choice: args.place.choice()?, out: args.out.clone(), dry: false, force: args.force, quiet: args.place.quiet };
+    let (choice, out) = (args.place.choice()?, args.out.clone());
+    let options = Options {
+        choice,
+        out,
+        dry: false,
+        force: args.force,
+        quiet: args.place.quiet,
+        energy: args.energy.map(EnergyWord::watch),
+    };
     let finished = match (&args.resume, &args.scene) {
         (Some(folder), _) => {
             let scene = Scene::open(&folder.join("run.toml"), None, &[]).map_err(Stop::Refused)?;

@@ -23,6 +23,7 @@ mod table;
 mod trace;
 mod zone;
 
+pub use energy::Energies;
 pub use kind::{ObservableKind, Observer, Value};
 pub use moment::{Moment, fields_of_path};
 pub use profile::profile;

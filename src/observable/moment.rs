@@ -74,6 +74,9 @@ pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
         // Elastic energy and velocity together are asked for by the total energy, which counts these energies too.
         if fields.contains(&Field::Velocity) {
             list.extend([Field::HourglassEnergy, Field::ContactEnergy, Field::ObstacleVelocity]);
+            if super::energy::pulled(scene) {
+                list.extend([Field::Displacement, Field::ObstacleDisplacement]);
+            }
         }
     }
     list.retain(|field| present.contains(field));

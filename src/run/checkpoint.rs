@@ -10,6 +10,8 @@ pub struct Checkpoint {
     pub event: usize,
     pub time: f64,
     pub steps: u32,
+    /// What the watch over the energy has seen: see `Watch::save`.
+    pub watch: Vec<f64>,
     pub name: String,
     pub variant: Option<String>,
     /// Scene as resolved, and device, that made it.
@@ -20,9 +22,9 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    pub fn new(scene: &Scene, backend: &dyn Backend, event: usize, time: f64, steps: u32, groups: Vec<Saved>) -> Self {
+    pub fn new(scene: &Scene, backend: &dyn Backend, (event, time, steps): (usize, f64, u32), groups: Vec<Saved>) -> Self {
         let (name, variant, scene) = (scene.name.clone(), scene.variant.clone(), scene.text.clone());
-        Self { event, time, steps, name, variant, scene, device: backend.describe(), groups }
+        Self { event, time, steps, watch: Vec::new(), name, variant, scene, device: backend.describe(), groups }
     }
 
     /// Refuses a checkpoint of another scene, which could not give the same bits.
@@ -68,6 +70,7 @@ mod stored {
             let file = hdf5::File::create(path)?;
             let numbers = [self.event as f64, self.time, f64::from(self.steps)];
             file.new_dataset_builder().with_data(&numbers).create("progress")?;
+            file.new_dataset_builder().with_data(&self.watch).create("watch")?;
             let texts = [("name", Some(&self.name)), ("variant", self.variant.as_ref()), ("scene", Some(&self.scene))];
             for (name, text) in texts.into_iter().chain([("device", Some(&self.device))]) {
                 if let Some(text) = text {
@@ -113,6 +116,7 @@ mod stored {
             event: progress[0] as usize,
             time: progress[1],
             steps: progress[2] as u32,
+            watch: if file.link_exists("watch") { file.dataset("watch")?.read_raw::<f64>()? } else { Vec::new() },
             name: text("name")?,
             variant: if file.link_exists("variant") { Some(text("variant")?) } else { None },
             scene: text("scene")?,

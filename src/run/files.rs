@@ -107,8 +107,8 @@ impl Files {
         series.row(&std::iter::once(time).chain(names.iter().map(last)).collect::<Vec<_>>())
     }
 
-    /// Stores and paints a moment.
-    pub fn frame(&mut self, scene: &Scene, moment: &Moment) -> Result<(), String> {
+    /// Stores and paints a moment; gives the picture's place in the folder.
+    pub fn frame(&mut self, scene: &Scene, moment: &Moment) -> Result<String, String> {
         let snapshot = moment.snapshot(&quantities(scene));
         #[cfg(feature = "hdf5")]
         {
@@ -120,9 +120,10 @@ impl Files {
             view.bounds = view.bounds.map(|first| output::follow(first, &snapshot));
         }
         let picture = self.painter.paint(&snapshot, &view)?;
-        output::save_png(&self.folder.join(format!("frames/{:05}.png", self.frames)), &picture)?;
+        let place = format!("frames/{:05}.png", self.frames);
+        output::save_png(&self.folder.join(&place), &picture)?;
         self.frames += 1;
-        Ok(())
+        Ok(place)
     }
 
     pub fn checkpoint(&self, saved: &Checkpoint) -> Result<(), String> {

@@ -1,22 +1,28 @@
 //! A run from start to end: segments between outputs, what is written, and what stops it.
 
+mod balance;
 mod checkpoint;
+mod fault;
 mod files;
 mod meetings;
 mod summary;
 mod warn;
+mod watch;
 
 pub use files::{Files, folder};
-pub use summary::{StepLengths, Stopwatch, Summary};
+pub use summary::{Counted, Said, StepLengths, Stopwatch, Summary};
 
+use balance::Balance;
 use checkpoint::Checkpoint;
 use meetings::Meetings;
+use watch::{Verdict, Watch};
 
 use crate::backend::{Backend, Choice, open};
 use crate::fields::Field;
 use crate::observable::{Moment, Observer, Table, Value, fields_read, observers, profile};
-use crate::rows::Fault;
+use crate::rows::{Clock, Fault};
 use crate::scene::Scene;
+use crate::scene::file::EnergyWatch;
 use crate::scene::interval::ROUNDING;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
@@ -32,6 +38,13 @@ pub struct Options {
     pub dry: bool,
     pub force: bool,
     pub quiet: bool,
+    /// What happens when the energy drifts, in place of the scene's `watch.energy`.
+    pub energy: Option<EnergyWatch>,
+}
+
+impl Options {
+    /// For studies that run what fails, and measure the failure themselves.
+    pub const UNWATCHED: Option<EnergyWatch> = Some(EnergyWatch::Off);
 }
 
 /// Why a run ended before its time.
@@ -72,7 +85,7 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
-    warn::say(&scene.warnings);
+    warn::say(scene);
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
     Run::new(scene, options, backend, files).go()
 }
@@ -91,10 +104,11 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
-    warn::say(&scene.warnings);
+    warn::say(scene);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
     let mut run = Run::new(scene, options, backend, Some(files));
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
+    run.energy.load(&saved.watch);
     run.go().map(Some)
 }
 
@@ -178,10 +192,12 @@ struct Run<'a> {
     lists: u32,
     lengths: StepLengths,
     meetings: Meetings,
-    /// What was warned of on the way.
-    warnings: Vec<String>,
     bar: ProgressBar,
-    watch: Stopwatch,
+    stopwatch: Stopwatch,
+    energy: Watch,
+    balance: Balance,
+    /// What the run has said beside the results: first what the scene gave reason for.
+    warnings: Vec<String>,
 }
 
 impl<'a> Run<'a> {
@@ -215,9 +231,11 @@ impl<'a> Run<'a> {
             lists: 0,
             lengths: StepLengths::default(),
             meetings: Meetings::default(),
-            warnings: Vec::new(),
             bar,
-            watch: Stopwatch::start(),
+            stopwatch: Stopwatch::start(),
+            energy: Watch::new(scene, options.energy),
+            balance: Balance::default(),
+            warnings: scene.warnings.clone(),
         }
     }
 
@@ -233,12 +251,6 @@ impl<'a> Run<'a> {
         }
         self.bar.finish_and_clear();
         self.finish()
-    }
-
-    /// Prints warnings above the bar, and keeps them for the summary.
-    fn warn(&mut self, lines: Vec<String>) {
-        self.bar.suspend(|| warn::say(&lines));
-        self.warnings.extend(lines);
     }
 
     /// Steps until an absolute time.
@@ -268,7 +280,7 @@ impl<'a> Run<'a> {
             self.bar.set_position((1000.0 * now / self.scene.file.duration) as u64);
             self.bar.set_message(format!("t = {now:.4e}, step {}", self.steps));
             if let Some(fault) = Fault::from_number(clock.fault) {
-                return Err(self.fail(&self.sentence(fault, clock.residual)));
+                return Err(self.broken(fault, &clock));
             }
             if INTERRUPTED.load(Ordering::Relaxed) {
                 return Err(Stop::Interrupted(format!("interrupted at t = {now:.6e}, step {}{}", self.steps, self.advice())));
@@ -300,21 +312,63 @@ impl<'a> Run<'a> {
         ))
     }
 
+    /// Says where a fault is, and keeps the state that it left as a frame.
+    fn broken(&mut self, fault: Fault, clock: &Clock<f64>) -> Stop {
+        let (began, kind) = (self.time, self.sentence(fault, clock.residual));
+        // Where equilibrium is sought, the loads are those of the end of the load step.
+        self.time += if self.scene.file.quasi_static.is_some() { clock.duration } else { clock.elapsed };
+        let mut fields = fault::fields(self.scene);
+        if self.files.is_some() {
+            fields.extend(&self.frame_fields);
+            fields.sort_unstable();
+            fields.dedup();
+        }
+        let mut parts = vec![kind];
+        if let Ok(fetched) = self.backend.fetch(&fields) {
+            let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
+            if let Some(place) = fault::find(&moment, fault) {
+                parts[0] += &format!(": {}", place.sentence(&moment));
+            }
+            parts.extend(fault::remedy(self.scene, fault, clock));
+            if let Some(Ok(picture)) = self.files.as_mut().map(|files| files.frame(self.scene, &moment)) {
+                parts.push(format!("the last state is the picture {picture} and the last one in particles.vtkhdf"));
+            }
+        }
+        let stop = self.fail(&parts.join("; "));
+        self.time = began;
+        stop
+    }
+
     fn advice(&self) -> String {
         let Some(files) = &self.files else { return String::new() };
         format!("; what was written so far is in {}", files.folder.display())
+    }
+
+    /// Fields to fetch at an event, for its frame and for a look at the energy if these are due.
+    fn wanted(&self, frame: bool, looks: bool) -> Vec<Field> {
+        let mut fields = if frame && self.files.is_some() { self.frame_fields.clone() } else { self.fields.clone() };
+        if looks {
+            fields.extend(Watch::fields(self.scene));
+        }
+        if self.scene.file.quasi_static.is_some() {
+            fields.extend(balance::fields(self.scene));
+        }
+        fields.sort_unstable();
+        fields.dedup();
+        fields
     }
 
     /// Writes what is due at the present event.
     fn output(&mut self) -> Result<(), Stop> {
         let (time, row, frame) = self.events[self.event];
         self.event += 1;
-        let fields = if frame && self.files.is_some() { &self.frame_fields } else { &self.fields };
-        let fetched = self.backend.fetch(fields);
+        let looks = row && self.energy.due(self.steps, self.event == self.events.len());
+        let fetched = self.backend.fetch(&self.wanted(frame, looks));
         let fetched = fetched.map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
-        let met = self.meetings.look(&moment);
-        self.warn(met);
+        for sentence in self.meetings.look(&moment) {
+            self.warn(Some(sentence));
+        }
         if row {
             self.table.times.push(time);
             for observer in &self.observers {
@@ -324,9 +378,39 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        let crossed = meetings::crossed(&moment);
-        self.write(&moment, row, frame).map_err(|e| self.fail(&e))?;
-        crossed.map_or(Ok(()), |sentence| Err(self.fail(&sentence)))
+        let verdict = if looks { self.energy.look(&moment) } else { Verdict::Well };
+        if self.scene.file.quasi_static.is_some() && self.event > 1 {
+            let warning = self.balance.look(&moment, self.event - 1);
+            self.warn(warning);
+        }
+        let verdict = match meetings::crossed(&moment) {
+            Some(sentence) => Verdict::Stop(sentence),
+            None => verdict,
+        };
+        if matches!(verdict, Verdict::Stop(_)) && !frame && self.files.is_some() {
+            // The last state is kept as a frame to look at, whose fields this event alone would not have fetched.
+            let fetched = self.backend.fetch(&self.frame_fields).map_err(|e| self.fail(&e))?;
+            let moment = Moment::new(self.scene, time, u64::from(self.steps), &fetched);
+            self.write(&moment, row, true).map_err(|e| self.fail(&e))?;
+        } else {
+            self.write(&moment, row, frame).map_err(|e| self.fail(&e))?;
+        }
+        match verdict {
+            Verdict::Well => Ok(()),
+            Verdict::Warn(sentence) => {
+                self.warn(Some(sentence));
+                Ok(())
+            }
+            Verdict::Stop(sentence) => Err(self.fail(&sentence)),
+        }
+    }
+
+    /// Says a thing and keeps it for the summary.
+    fn warn(&mut self, sentence: Option<String>) {
+        let Some(sentence) = sentence else { return };
+        let sentence = format!("{}: {sentence}", self.scene.label());
+        self.bar.suspend(|| warn::say_one(&sentence));
+        self.warnings.push(sentence);
     }
 
     /// Row, frame and checkpoint of a moment.
@@ -338,7 +422,8 @@ impl<'a> Run<'a> {
         if frame {
             files.frame(self.scene, moment)?;
             let groups = self.backend.save()?;
-            let saved = Checkpoint::new(self.scene, &*self.backend, self.event, moment.time, self.steps, groups);
+            let mut saved = Checkpoint::new(self.scene, &*self.backend, (self.event, moment.time, self.steps), groups);
+            saved.watch = self.energy.save();
             files.checkpoint(&saved)?;
         }
         Ok(())
@@ -348,9 +433,13 @@ impl<'a> Run<'a> {
         let fetched = self.backend.fetch(&self.fields).map_err(|e| self.fail(&e))?;
         let moment = Moment::new(self.scene, self.time, u64::from(self.steps), &fetched);
         let profiles = self.profiles(&moment);
-        let mut summary = Summary::new(self.scene, &mut *self.backend, self.steps, self.lists, self.lengths, &self.watch)
-            .map_err(|e| self.fail(&e))?;
-        summary.warnings.extend(self.warnings);
+        let said = Said {
+            warnings: std::mem::take(&mut self.warnings),
+            energy: self.energy.report(self.scene),
+            balance: self.balance.report(self.scene),
+        };
+        let counts = Counted { steps: self.steps, lists_built: self.lists, lengths: self.lengths };
+        let summary = Summary::new(self.scene, &mut *self.backend, counts, &self.stopwatch, said).map_err(|e| self.fail(&e))?;
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
         if let Some(files) = &self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;

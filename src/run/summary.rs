@@ -1,5 +1,6 @@
 //! What a scene used and cost.
 
+use super::{balance, watch};
 use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
 use crate::fields::Field;
@@ -74,19 +75,36 @@ pub struct Summary {
     pub processor_seconds: f64,
     /// Steps times the force passes of a step, and one for each load step.
     pub force_evaluations: u64,
-    /// What was said to standard error beside the results, before the run and on its way.
+    pub said: Said,
+}
+
+/// What a run has counted.
+#[derive(Debug, Clone, Copy)]
+pub struct Counted {
+    pub steps: u32,
+    pub lists_built: u32,
+    pub lengths: StepLengths,
+}
+
+/// What a run says of itself beside the results.
+#[derive(Debug, Clone)]
+pub struct Said {
+    /// What was said to standard error.
     pub warnings: Vec<String>,
+    pub energy: watch::Report,
+    /// Balance of forces, where equilibrium is sought.
+    pub balance: Option<balance::Report>,
 }
 
 impl Summary {
     pub fn new(
         scene: &Scene,
         backend: &mut dyn Backend,
-        steps: u32,
-        lists_built: u32,
-        lengths: StepLengths,
+        counted: Counted,
         watch: &Stopwatch,
+        said: Said,
     ) -> Result<Self, String> {
+        let Counted { steps, lists_built, lengths } = counted;
         let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
         let forces = step::step(&scene.groups()[0].method).iter().filter(|call| call.pass.is_force()).count() as u64;
         let begun = scene.file.quasi_static.as_ref().map_or(0, |typed| u64::from(typed.load_steps));
@@ -106,7 +124,7 @@ impl Summary {
             seconds,
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
-            warnings: scene.warnings.clone(),
+            said,
         })
     }
 
@@ -116,7 +134,7 @@ impl Summary {
     }
 
     pub fn text(&self) -> String {
-        format!(
+        let costs = format!(
             "{} particles with {:.1} neighbours, {} passes a step, {:.0} bytes a particle\n\
              {}\n\
              {} steps{}, {} neighbour lists, {:.2} s: {:.3e} particle-updates a second",
@@ -130,7 +148,9 @@ impl Summary {
             self.lists_built,
             self.seconds,
             self.updates_per_second(),
-        )
+        );
+        let lines = [Some(costs), Some(self.said.energy.text()), self.said.balance.as_ref().map(|balance| balance.text.clone())];
+        lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
     pub fn json(&self, scene: &Scene) -> String {
@@ -141,7 +161,8 @@ impl Summary {
             "changes_of_step": self.lengths.changes, "passes": self.passes, "fields": self.fields, "bytes": self.bytes,
             "seconds": self.seconds, "processor_seconds": self.processor_seconds,
             "force_evaluations": self.force_evaluations, "particle_updates_per_second": self.updates_per_second(),
-            "warnings": self.warnings, "bodies": scene.masses().iter().map(BodyMass::json).collect::<Vec<_>>(),
+            "warnings": self.said.warnings, "energy": self.said.energy.json(), "balance": self.said.balance.as_ref().map(balance::Report::json),
+            "bodies": scene.masses().iter().map(BodyMass::json).collect::<Vec<_>>(),
         });
         format!("{value:#}\n")
     }

@@ -1,5 +1,6 @@
 //! Warnings on standard error.
 
+use crate::scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
@@ -7,13 +8,16 @@ use std::sync::{Mutex, PoisonError};
 /// say each thing once.
 static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
-/// Says warnings. They come out also where a run is told to be quiet, which spares progress and summary alone.
-pub(super) fn say(warnings: &[String]) {
+/// Says the warnings of a scene. They come out also where a run is told to be quiet, which spares progress and summary alone.
+pub(super) fn say(scene: &Scene) {
+    scene.warnings.iter().for_each(|warning| say_one(warning));
+}
+
+/// Says a warning that the process has not said yet.
+pub(super) fn say_one(warning: &str) {
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
-    for warning in warnings {
-        let thing = warning.split_once(": ").map_or(warning.as_str(), |(_, thing)| thing);
-        if said.insert(thing.to_string()) {
-            eprintln!("lithosph: warning: {warning}");
-        }
+    let thing = warning.split_once(": ").map_or(warning, |(_, thing)| thing);
+    if said.insert(thing.into()) {
+        eprintln!("lithosph: warning: {warning}");
     }
 }

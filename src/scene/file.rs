@@ -63,6 +63,8 @@ pub struct File {
     #[serde(default)]
     pub quasi_static: Option<QuasiStatic>,
     #[serde(default)]
+    pub watch: Watch,
+    #[serde(default)]
     pub output: Output,
     #[serde(default)]
     pub observe: BTreeMap<String, Observe>,
@@ -559,6 +561,28 @@ impl Default for Time {
     fn default() -> Self {
         Self { integrator: Integrator::Leapfrog, cfl: 0.3, step: None }
     }
+}
+
+/// What a run keeps an eye on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Watch {
+    /// What happens when the energy drifts: see `src/run/watch.rs`.
+    pub energy: EnergyWatch,
+    /// Drift, over the largest energy of the run, at which it stops; 0.1 unless given.
+    pub energy_drift: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EnergyWatch {
+    /// A warning at 1 % of drift, and an end at `energy_drift`.
+    #[default]
+    Stop,
+    /// A warning, and no end.
+    Warn,
+    /// Energies are not summed.
+    Off,
 }
 
 /// The scene's duration is pseudo-time. Prescribed velocities, integrated over a load step, move what they hold at

@@ -2,6 +2,7 @@
 
 use super::facets;
 use super::material::Material;
+use super::warn::factor;
 use crate::rows::{BodyOptions, FacetPair, Obstacle};
 use glam::DVec3;
 
@@ -65,6 +66,32 @@ pub struct SceneConstraint {
     /// Velocity along those axes, acceleration along the others.
     pub vector: [f64; 3],
     pub course: Vec<[f64; 2]>,
+}
+
+impl SceneConstraint {
+    /// The factor of the course, where it stays the same for the whole run.
+    pub fn steady_factor(&self) -> Option<f64> {
+        match self.course.first() {
+            None => Some(1.0),
+            Some(first) => self.course.iter().all(|point| point[1] == first[1]).then_some(first[1]),
+        }
+    }
+
+    /// The factor of the course at a time; none without a course.
+    pub fn factor(&self, time: f64) -> Option<f64> {
+        (!self.course.is_empty()).then(|| factor(&self.course, time))
+    }
+
+    /// Whether a velocity other than zero is prescribed.
+    pub fn drives(&self) -> bool {
+        let moves = (0..3).any(|axis| self.prescribed[axis] && self.vector[axis] != 0.0);
+        moves && self.steady_factor() != Some(0.0)
+    }
+
+    /// Whether a force acts that changes with time.
+    pub fn pushes_unsteadily(&self) -> bool {
+        (0..3).any(|axis| !self.prescribed[axis] && self.vector[axis] != 0.0) && self.steady_factor().is_none()
+    }
 }
 
 /// A mirror plane: points x with x . normal = offset.

@@ -155,6 +155,13 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(step) = file.time.step {
         one(step, &["time", "step"], "step")?;
     }
+    if let Some(drift) = file.watch.energy_drift {
+        let path = ["watch", "energy_drift"];
+        one(drift, &path, "energy_drift")?;
+        refuse.unless(file.watch.energy == super::file::EnergyWatch::Stop, &path, || {
+            "energy_drift says where a run stops, and watch.energy stops none: give one of the two".into()
+        })?;
+    }
     let fits = file.body_force.as_ref().is_none_or(|g| g.len() == file.dimension);
     refuse.unless(fits, &["body_force"], || format!("body_force takes {} components", file.dimension))?;
     outputs(file, refuse)?;

@@ -100,7 +100,7 @@ fn left_out(course: &[[f64; 2]], duration: f64, unit: &str) -> Option<String> {
 }
 
 /// The factor of a course at a time: linear between its points, constant outside.
-fn factor(course: &[[f64; 2]], time: f64) -> f64 {
+pub(super) fn factor(course: &[[f64; 2]], time: f64) -> f64 {
     let after = course.partition_point(|point| point[0] <= time);
     match (after.checked_sub(1).map(|before| course[before]), course.get(after)) {
         (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]),

@@ -1,4 +1,6 @@
-//! Whole runs: equilibrium, and going on after a kill.
+//! Whole runs: equilibrium, energy, faults, and going on after a kill.
 
 mod checkpoint;
+mod fault;
 mod quasi_static;
+mod watch;

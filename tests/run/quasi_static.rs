@@ -155,3 +155,23 @@ fn a_search_without_end_stops_with_a_sentence() {
         other => panic!("{:?}", other.map(|run| run.summary)),
     }
 }
+
+/// The grip holds all of the weight below it and the force at the end: what it misses in a slack descent is the imbalance that
+/// the run tells of.
+#[test]
+fn forces_that_do_not_balance_are_told_and_warned_of() {
+    let (below, largest) = (17.0 * 1e-4 + 3e-3, 20.0 * 1e-4 + 3e-3);
+    for (residual, right) in [("3e-2", false), ("1e-9", true)] {
+        let changes = [&format!("quasi_static.residual={residual}"), "quasi_static.load_steps=1"];
+        let run = finished(HANGING, Choice::Cpu, &changes);
+        let (said, force) = (&run.summary.said, run.table.columns["force"][1]);
+        let balance = said.balance.clone().expect("equilibrium is sought");
+        let missed = (below - force).abs() / largest;
+        println!("{residual}: the grip misses {missed:.2e}; {}", balance.text);
+        assert!((balance.worst.share() - missed).abs() < 1e-3 * missed + 1e-9, "{missed} and {:?}", balance.worst);
+        assert_eq!(missed < 1e-4, right);
+        let warned =
+            said.warnings.iter().any(|w| w.contains("out of balance") && w.contains("lower quasi_static.residual from 3e-2"));
+        assert!(warned != right && run.summary.text().contains(&balance.text), "{:?}", said.warnings);
+    }
+}

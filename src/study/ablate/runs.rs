@@ -120,7 +120,13 @@ impl Study {
         if INTERRUPTED.load(Ordering::Relaxed) {
             return Err(Stop::Interrupted(format!("interrupted; the same command goes on with {}", self.file.display())));
         }
-        let options = Options { choice: self.request.choice.clone(), dry: true, quiet: true, ..Options::default() };
+        let options = Options {
+            choice: self.request.choice.clone(),
+            dry: true,
+            quiet: true,
+            energy: Options::UNWATCHED,
+            ..Options::default()
+        };
         run::run(scene, &options)
     }
 }

@@ -158,7 +158,8 @@ impl Study {
             return Ok(None);
         }
         let scene = self.source.open(&self.matrix.settings[job.setting].overrides).map_err(Stop::Refused)?;
-        let options = Options { choice: job.choice.clone(), dry: true, quiet: true, ..Options::default() };
+        let options =
+            Options { choice: job.choice.clone(), dry: true, quiet: true, energy: Options::UNWATCHED, ..Options::default() };
         Ok(match run::run(&scene, &options) {
             Ok(finished) => Some(self.finished(job.key.clone(), &scene, &finished)),
             Err(Stop::Interrupted(_)) => None,

@@ -100,7 +100,14 @@ impl Side {
     /// A refused scene, a file that cannot be written, or the user.
     pub fn run(&self, folder: &Path, size: Size, small: &[&str]) -> Result<Outcome, Stop> {
         let scene = self.scene(size, small).map_err(Stop::Refused)?;
-        let options = Options { choice: Choice::Cpu, out: Some(folder.into()), dry: false, force: true, quiet: true };
+        let options = Options {
+            choice: Choice::Cpu,
+            out: Some(folder.into()),
+            dry: false,
+            force: true,
+            quiet: true,
+            energy: Options::UNWATCHED,
+        };
         let stopped = match run::run_on(&scene, &options, self.machine.open(&scene)) {
             Ok(_) => None,
             Err(Stop::Failed(why)) => Some(why),

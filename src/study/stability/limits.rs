@@ -188,7 +188,7 @@ impl Kicked {
 
 /// The speeds of a run; none where it fails.
 fn speeds_of(scene: &Scene) -> Result<Option<Vec<f64>>, String> {
-    let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
+    let options = Options { choice: Choice::Cpu, dry: true, quiet: true, energy: Options::UNWATCHED, ..Options::default() };
     match run(scene, &options) {
         Ok(mut finished) => Ok(finished.table.columns.remove("speed")),
         Err(Stop::Failed(_)) => Ok(None),

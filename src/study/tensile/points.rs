@@ -93,7 +93,7 @@ impl Point {
         }
         tell(&self.name());
         let scene = Scene::parse(&text, "tension_square", Some("study"), &[]).map_err(Stop::Failed)?;
-        let options = Options { choice: Choice::Cpu, dry: true, quiet: true, ..Options::default() };
+        let options = Options { choice: Choice::Cpu, dry: true, quiet: true, energy: Options::UNWATCHED, ..Options::default() };
         let finished = run(&scene, &options)?;
         let speeds = &finished.table.columns["speed"];
         let rows: Vec<(f64, f64)> = finished.table.times.iter().map(|t| t * UNIT_RATE).zip(speeds.iter().copied()).collect();
