@@ -187,3 +187,27 @@ fn an_eulerian_solid_that_is_pulled_is_told_of() {
     assert_eq!(warnings(&eulerian("artificial_stress = { epsilon = 0.3 }")), Vec::<String>::new());
     assert_eq!(warnings(&eulerian("artificial_stress = { epsilon = 0 }")), Vec::<String>::new());
 }
+
+#[test]
+fn a_scene_that_finds_no_result_is_swept_by_its_series() {
+    let sandbox = Sandbox::new("sweep");
+    sandbox.write("s.toml", BAR);
+    let sweep = |more: &[&str]| {
+        let words = ["study", "sweep", "s.toml", "--vary", "boundary.end.force=[0,-50],[0,-100]", "--out"];
+        sandbox.lithosph(&[&words, more].concat())
+    };
+    let said = sweep(&["all.csv"]);
+    assert_eq!(said.code, Some(0), "{said:?}");
+    let rows: Vec<&str> = said.out.lines().collect();
+    assert_eq!((rows.len(), rows[0]), (3, "boundary.end.force,tip.final,tip.min,tip.max"), "{said:?}");
+    // Free flight at first: the tip moves by half the force over the mass of the end times the square of the time, and twice
+    // the force moves it twice as far.
+    let last = |row: &str| row.rsplit(',').nth(2).and_then(|cell| cell.parse::<f64>().ok()).unwrap_or(f64::NAN);
+    assert!(last(rows[1]) < 0.0 && (last(rows[2]) / last(rows[1]) - 2.0).abs() < 1e-3, "{said:?}");
+    let one = sweep(&["one.csv", "--number", "tip.drift"]);
+    assert!(one.out.starts_with("boundary.end.force,tip.drift\n") && one.out.lines().count() == 3, "{one:?}");
+    for (number, words) in [("tp.max", "did you mean `tip`?"), ("tip.largest", "no statistic `largest`")] {
+        let said = sweep(&["none.csv", "--number", number]);
+        assert!(said.code == Some(2) && said.err.contains(words) && !sandbox.exists("none.csv"), "{said:?}");
+    }
+}
