@@ -376,6 +376,11 @@ fn constraints(
                 );
             }
             particle.constraint = k as u32 + 1;
+            // What is held has its velocity from the first row on, whatever its body sets off with.
+            let factor = list[k].factor(0.0).unwrap_or(1.0);
+            for axis in (0..3).filter(|&axis| prescribed[axis]) {
+                particle.velocity[axis] = factor * vector[axis];
+            }
         }
     }
     Ok(list)

@@ -688,7 +688,8 @@ impl Case {
         if self.apart {
             text += "[formulation.other]\ngradient = \"adjoint\"\n";
         }
-        text + &format!("[formulation]\n{}\n[time]\n{}\n", self.formulation, self.time)
+        let kind = if self.formulation.contains("kind") { "" } else { "kind = \"eulerian\"\n" };
+        text + &format!("[formulation]\n{kind}{}\n[time]\n{}\n", self.formulation, self.time)
     }
 
     pub fn scene(&self) -> Scene {
