@@ -359,8 +359,8 @@ impl Fault {
             Fault::ListFull => {
                 "a particle has more neighbours than its list can hold; particles may have clumped, or raise formulation.list_capacity"
             }
-            Fault::NotFinite => "a velocity or stress is no longer a number; the time step may be too long",
-            Fault::Inverted => "a particle's volume fell to zero or below; the time step may be too long or the load too great",
+            Fault::NotFinite => "a velocity or stress is no longer a number",
+            Fault::Inverted => "a particle's volume fell to zero or below",
             Fault::NoEquilibrium => "no equilibrium was found within quasi_static.most_steps",
         }
     }

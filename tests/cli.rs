@@ -321,7 +321,7 @@ fn expectations_pass_miss_and_are_known_to_miss() {
     // A run that breaks off is a line of the table, not the end of it.
     let said = check(EXPECTED, &[&BREAKS[..], &["--variant", "slow"]].concat());
     assert_eq!(said.code, Some(1), "{said:?}");
-    assert!(said.out.contains("time step may be too long") && said.out.ends_with("1 expectations, 1 missed\n"), "{said:?}");
+    assert!(said.out.contains("try time.") && said.out.ends_with("1 expectations, 1 missed\n"), "{said:?}");
 }
 
 #[test]
@@ -372,7 +372,7 @@ fn a_run_that_goes_wrong_says_why_and_keeps_what_it_has() {
     let said = sandbox.lithosph(&[&["run", "s.toml", "--backend", "cpu"], &BREAKS[..]].concat());
     assert_eq!(said.code, Some(1), "{said:?}");
     one_line(&said.err, "wrong");
-    assert!(said.err.contains("step ") && said.err.contains("time step may be too long"), "{said:?}");
+    assert!(said.err.contains("step ") && said.err.contains("try time."), "{said:?}");
     assert!(said.err.contains("written so far is in out/s"), "{said:?}");
     assert!(!csv::read(&sandbox.path("out/s/series.csv")).unwrap().1.is_empty());
     assert!(!sandbox.exists("out/s/summary.json"));

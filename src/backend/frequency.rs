@@ -4,7 +4,7 @@
 //! the masses. Lanczos' iteration on it, with the run's own passes in f64, so that correction, hourglass forces, surfaces and
 //! mirror planes are all in it, finds the largest eigenvalue from below within some thirty forces; the rate at which it
 //! still rises is added. Bodies exchange no forces but by contact, which the bound on the step counts apart, and so one
-//! force serves the iterations of all.
+//! force serves the iterations of all. Bodies that are tied count as one.
 
 use crate::method::{Formulation, Method};
 use crate::pass::Pass;
@@ -101,7 +101,22 @@ pub fn about<S: Space<Real = f64>>(state: &mut State<S>) -> Vec<f64> {
         probe.scale(&mut next, |body| if norms[body] > 0.0 { 1.0 / norms[body].sqrt() } else { 0.0 });
         (last, current) = (current, next);
     }
-    lanczos.iter().map(Lanczos::frequency).collect()
+    pieces(state).into_iter().map(|piece| lanczos[piece].frequency()).collect()
+}
+
+/// For each body the first of the bodies that it is tied to, directly or by others: these have their frequencies together.
+fn pieces<S: Space>(state: &State<S>) -> Vec<usize> {
+    let count = state.bodies.len();
+    let mut piece: Vec<usize> = (0..count).collect();
+    if state.method.tied {
+        for (a, b) in (0..count).flat_map(|a| (0..a).map(move |b| (a, b))) {
+            if state.coupling[a * count + b].f64() > 0.0 && piece[a] != piece[b] {
+                let (kept, gone) = (piece[a].min(piece[b]), piece[a].max(piece[b]));
+                piece.iter_mut().filter(|piece| **piece == gone).for_each(|piece| *piece = kept);
+            }
+        }
+    }
+    piece
 }
 
 /// Applies the stiffness over the mass to fields of displacement, by finite differences about a state.
@@ -118,7 +133,8 @@ struct Probe<S: Space> {
 impl<S: Space<Real = f64>> Probe<S> {
     fn new(state: &mut State<S>) -> Self {
         let count = state.params.count as usize;
-        let body = (0..count).map(|a| state.columns.body.get(a).map_or(0, |&body| body as usize)).collect();
+        let pieces = pieces(state);
+        let body = (0..count).map(|a| state.columns.body.get(a).map_or(0, |&body| pieces[body as usize])).collect();
         let mass = (0..count).map(|a| state.body(a).density * state.columns.reference_volume[a]).collect();
         let least = state.bodies.iter().map(|body| body.smoothing_length).fold(f64::INFINITY, f64::min);
         let inner = |call: &crate::pass::Call| matches!(call.pass, Pass::Deform | Pass::BondForce);

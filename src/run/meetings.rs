@@ -11,10 +11,12 @@ use std::collections::{BTreeSet, HashMap};
 /// Bodies that lie on one lattice and share a face are exactly one spacing apart; rounding shall not decide whether that is told.
 const ROUNDING: f64 = 1e-6;
 
-/// Distance, over the spacing, within which touching bodies have no particles, and a particle inside another body has several.
-const INSIDE: f64 = 0.75;
-/// Length of the mean of the directions to such particles: 1 where all lie on one side, 0 in their midst.
-const MIDST: f64 = 0.5;
+/// Distance, over the spacing, within which a particle inside another body has at least two of that body's particles for each
+/// axis.
+const INSIDE: f64 = 1.3;
+/// Length of the mean of the directions to them: about 0 in their midst, and still 0.4 where two surfaces are pressed
+/// together to a fifth of a spacing.
+const MIDST: f64 = 0.2;
 
 /// What was told so far.
 #[derive(Debug, Default)]
@@ -87,8 +89,9 @@ pub fn crossed(moment: &Moment) -> Option<String> {
     near_pairs(&boxes).into_iter().filter(|&(a, b)| touch(scene, a, b)).find_map(|(a, b)| {
         let within = INSIDE * scene.bodies[a].spacing.max(scene.bodies[b].spacing);
         let [own, other] = [&bodies[a], &bodies[b]];
-        let place =
-            midst([own, other], [boxes[a], boxes[b]], within).or_else(|| midst([other, own], [boxes[b], boxes[a]], within))?;
+        let least = 2 * scene.dimension();
+        let inside = |points, boxes| midst(points, boxes, within, least);
+        let place = inside([own, other], [boxes[a], boxes[b]]).or_else(|| inside([other, own], [boxes[b], boxes[a]]))?;
         let [_, _, unit] = scene.unit_names();
         Some(format!(
             "`{}` and `{}` pass through each other at {}, seen at t = {:.4e} {unit}: what is between them is too soft for this \
@@ -101,12 +104,12 @@ pub fn crossed(moment: &Moment) -> Option<String> {
     })
 }
 
-/// A point of the second body that has points of the first on all sides within a distance (m).
-fn midst(points: [&[DVec3]; 2], boxes: [(DVec3, DVec3); 2], within: f64) -> Option<DVec3> {
+/// A point of the second body that has so many points of the first, on all sides, within a distance (m).
+fn midst(points: [&[DVec3]; 2], boxes: [(DVec3, DVec3); 2], within: f64, least: usize) -> Option<DVec3> {
     let near = Near::new(points[0], boxes, within);
     points[1].iter().copied().find(|&point| {
         let directions: Vec<DVec3> = near.of(point).map(|other| (other - point).normalize_or_zero()).collect();
-        directions.len() > 1 && directions.iter().sum::<DVec3>().length() < MIDST * directions.len() as f64
+        directions.len() >= least && directions.iter().sum::<DVec3>().length() < MIDST * directions.len() as f64
     })
 }
 

@@ -120,5 +120,5 @@ fn none_goes_with_nothing_beside_it() {
     let both = refused(&format!("{NONE}\ngap = {{}}"));
     assert!(both.contains("none = true says that nothing acts"), "{both}");
     let nothing = refused("[[contact]]\nbetween = ['a', 'b']\nnone = false");
-    assert!(nothing.contains("zones, gap or none"), "{nothing}");
+    assert!(nothing.contains("zones, gap, tie or none"), "{nothing}");
 }
