@@ -1,5 +1,6 @@
 //! Energies of the selected particles.
 
+use super::moment::pulled;
 use super::{Moment, ObservableKind, Observer, Value};
 use crate::fields::Field;
 use crate::scene::Scene;
@@ -56,12 +57,6 @@ fn body_force(scene: &Scene) -> [f64; 3] {
 
 fn along(pull: [f64; 3], way: [f64; 3]) -> f64 {
     pull.iter().zip(way).map(|(p, w)| p * w).sum()
-}
-
-/// Whether forces that have a potential act on a scene, so that its energy depends on where the particles are.
-pub(super) fn pulled(scene: &Scene) -> bool {
-    scene.file.quasi_static.is_none()
-        && (scene.file.body_force.is_some() || scene.file.boundary.iter().any(|b| b.force.is_some()))
 }
 
 /// Potential of the steady forces on a particle: 0 where it was packed.

@@ -74,13 +74,19 @@ pub fn read(scene: &Scene, fields: &[Field]) -> Vec<Field> {
         // Elastic energy and velocity together are asked for by the total energy, which counts these energies too.
         if fields.contains(&Field::Velocity) {
             list.extend([Field::HourglassEnergy, Field::ContactEnergy, Field::ObstacleVelocity]);
-            if super::energy::pulled(scene) {
+            if pulled(scene) {
                 list.extend([Field::Displacement, Field::ObstacleDisplacement]);
             }
         }
     }
     list.retain(|field| present.contains(field));
     list
+}
+
+/// Whether forces that have a potential act on a scene, so that its energy depends on where the particles are.
+pub(super) fn pulled(scene: &Scene) -> bool {
+    scene.file.quasi_static.is_none()
+        && (scene.file.body_force.is_some() || scene.file.boundary.iter().any(|b| b.force.is_some()))
 }
 
 /// Fields needed for a path, of those that the scene has.

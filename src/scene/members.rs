@@ -2,7 +2,6 @@
 
 use super::facets;
 use super::material::Material;
-use super::warn::factor;
 use crate::rows::{BodyOptions, FacetPair, Obstacle};
 use glam::DVec3;
 
@@ -91,6 +90,16 @@ impl SceneConstraint {
     /// Whether a force acts that changes with time.
     pub fn pushes_unsteadily(&self) -> bool {
         (0..3).any(|axis| !self.prescribed[axis] && self.vector[axis] != 0.0) && self.steady_factor().is_none()
+    }
+}
+
+/// The factor of a course at a time: linear between its points, constant outside.
+pub(super) fn factor(course: &[[f64; 2]], time: f64) -> f64 {
+    let after = course.partition_point(|point| point[0] <= time);
+    match (after.checked_sub(1).map(|before| course[before]), course.get(after)) {
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]),
+        (Some(end), None) => end[1],
+        (None, first) => first.map_or(1.0, |point| point[1]),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Scene;
 use super::file::BodyTable;
 use super::groups::of_body;
+use super::members::factor;
 use super::refuse::Refuse;
 use super::shape::Coordinates;
 use crate::method::Formulation;
@@ -97,16 +98,6 @@ fn left_out(course: &[[f64; 2]], duration: f64, unit: &str) -> Option<String> {
         last[0],
         100.0 * largest / whole
     ))
-}
-
-/// The factor of a course at a time: linear between its points, constant outside.
-pub(super) fn factor(course: &[[f64; 2]], time: f64) -> f64 {
-    let after = course.partition_point(|point| point[0] <= time);
-    match (after.checked_sub(1).map(|before| course[before]), course.get(after)) {
-        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]),
-        (Some(end), None) => end[1],
-        (None, first) => first.map_or(1.0, |point| point[1]),
-    }
 }
 
 #[cfg(test)]

@@ -290,7 +290,7 @@ fn what_cannot_be_tied_is_refused() {
     let self_tied = "between = ['left', 'left']\ntie = true";
     for (right, contact, rest, words) in [
         (far.as_str(), TIE, TOTAL, "2.000 spacings apart at [5.5,"),
-        (&over, TIE, TOTAL, "0.000 spacings apart at [5.5,"),
+        (&over, TIE, TOTAL, "overlap at the start: a particle of `left` at (5.5, 0.5)"),
         (&shifted, TIE, TOTAL, "0.600 spacings apart at [5.5,"),
         (&finer, TIE, TOTAL, "tied bodies need one spacing: that of `left` is 1, that of `right` 0.5"),
         (&other, TIE, &named("smoothing_length = 1.5"), "one smoothing length"),
@@ -301,7 +301,7 @@ fn what_cannot_be_tied_is_refused() {
         (RIGHT, &twice, TOTAL, "two tables [[contact]]"),
         (RIGHT, self_tied, TOTAL, "`left` is one body already"),
         (RIGHT, "between = ['left', 'right']\nkernel = 1", TOTAL, "tie = true bonds bodies that share a face"),
-        (RIGHT, "between = ['left', 'right']\ntie = false", TOTAL, "gap or tie"),
+        (RIGHT, "between = ['left', 'right']\ntie = false", TOTAL, "gap, tie or none"),
     ] {
         let said = refusal([LEFT, right], contact, rest);
         assert!(said.contains(words), "{said}\nlacks: {words}");
