@@ -295,7 +295,7 @@ fn what_cannot_be_tied_is_refused() {
         (&finer, TIE, TOTAL, "tied bodies need one spacing: that of `left` is 1, that of `right` 0.5"),
         (&other, TIE, &named("smoothing_length = 1.5"), "one smoothing length"),
         (&other, TIE, &named("gradient = 'quadratic'"), "their formulations differ in gradient"),
-        (RIGHT, TIE, "[formulation]\ngradient = 'adjoint'", "the kernel joins Eulerian bodies"),
+        (RIGHT, TIE, "[formulation]\nkind = 'eulerian'\ngradient = 'adjoint'", "the kernel joins Eulerian bodies"),
         (RIGHT, TIE, "[formulation]\nkind = 'corrected_kernel'", "`corrected_kernel` has none"),
         (RIGHT, &gap, TOTAL, "name no kernel, potential"),
         (RIGHT, &twice, TOTAL, "two tables [[contact]]"),
