@@ -48,7 +48,7 @@ fn least_root<R: Real>(t: R, s: R, q: R) -> R {
         let (slope, bend) = ((three * x - two * t) * x + s, two * (three * x - t));
         let first = slope / value;
         let second = first * first - bend / value;
-        x = x - three / (first - (two * (three * second - first * first)).max(zero).sqrt());
+        x -= three / (first - (two * (three * second - first * first)).max(zero).sqrt());
     }
     x
 }

@@ -95,7 +95,7 @@ impl Scene {
     /// One sentence for each body whose particles carry another volume than its shape has, with the body's index.
     pub(super) fn mass_warnings(&self) -> Vec<(usize, String)> {
         let rows = self.masses();
-        let off = rows.iter().filter(|row| !(row.difference().abs() <= OFF));
+        let off = rows.iter().filter(|row| row.difference().is_nan() || row.difference().abs() > OFF);
         off.map(|row| {
             let more = if row.difference() > 0.0 { "more" } else { "less" };
             let sentence = format!(

@@ -17,7 +17,7 @@ fn impact(l: f64, dimension: i32, eulerian: bool) -> Scene {
     let law = if eulerian {
         "law = 'elastic'".to_string()
     } else {
-        format!("pressure = 'linear'\nstrength = {{ j2 = {{ yield_stress = 0.02e9, hardening = {{ linear = 1e9 }} }} }}")
+        "pressure = 'linear'\nstrength = { j2 = { yield_stress = 0.02e9, hardening = { linear = 1e9 } } }".to_string()
     };
     let (formulation, touching) = if eulerian {
         ("kind = 'eulerian'\nartificial_stress = { epsilon = 0.3 }\nviscosity = { alpha = 1.0, beta = 2.0 }", String::new())

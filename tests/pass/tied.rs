@@ -81,13 +81,12 @@ fn linear_error<S: Space<Real = f64>>(scene: &Scene) -> f64 {
     respond(state);
     let mut error: f64 = 0.0;
     for h in &state.columns.displacement_gradient {
-        for i in 0..S::DIMENSION {
-            let column: [f64; 3] = std::array::from_fn(|j| if j < S::DIMENSION { gradient[i][j] } else { 0.0 });
-            for j in 0..S::DIMENSION {
+        for (i, row) in gradient.iter().enumerate().take(S::DIMENSION) {
+            for (j, wanted) in row.iter().enumerate().take(S::DIMENSION) {
                 let mut unit = [0.0; 3];
                 unit[j] = 1.0;
                 let seen = S::vec_to(S::mat_vec(*h, S::vec_from(unit)))[i];
-                error = error.max((seen - column[j]).abs() / 0.072);
+                error = error.max((seen - wanted).abs() / 0.072);
             }
         }
     }
