@@ -118,7 +118,8 @@ fn sentence(time: f64, [a, b]: [&SceneBody; 2], place: DVec3, scene: &Scene) -> 
     let (first, second) = if a.group == b.group { (&a.name, &b.name) } else { (&a.group, &b.group) };
     format!(
         "`{first}` and `{second}` come within a spacing of each other at t = {time:.4e} {unit}, at {}, and no law is between them: \
-         they pass through each other; name a [[contact]] between them, with a law or, if that is meant, with `none = true`",
+         they would pass through each other, and a face that they share carries no stress; name a [[contact]] between them: with a \
+         law, with `tie = true` where they are bonded, or with `none = true` if this is meant",
         words::place(place, scene.dimension())
     )
 }

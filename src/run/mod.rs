@@ -421,6 +421,9 @@ impl<'a> Run<'a> {
         }
         if frame {
             files.frame(self.scene, moment)?;
+        }
+        // A run without frames still has to go on from where it was broken off.
+        if frame || (row && self.scene.file.frames() == 0.0) {
             let groups = self.backend.save()?;
             let mut saved = Checkpoint::new(self.scene, &*self.backend, (self.event, moment.time, self.steps), groups);
             saved.watch = self.energy.save();

@@ -52,7 +52,10 @@ impl StepLengths {
         if self.longest == 0.0 {
             return String::new();
         }
-        format!(" of {:.4e} to {:.4e}, changed {} times", self.shortest, self.longest, self.changes)
+        if self.longest < 1.01 * self.shortest {
+            return format!(" of {:.4e}", self.longest);
+        }
+        format!(" of {:.4e} to {:.4e}, which changed {} times", self.shortest, self.longest, self.changes)
     }
 }
 
