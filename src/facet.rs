@@ -80,16 +80,19 @@ pub fn fade<R: Real>(t: R) -> (R, R) {
     (t * t * (three - two * t), R::of(6.0) * t * (one - t))
 }
 
-/// Coulomb friction with an elastic slip. The traction is `stiffness` times the slip and at most `limit`: returns the slip cut
-/// down to that, and the heat, which is the elastic energy that the cut has released.
+/// Coulomb friction with an elastic slip, which was `before` and would be `slip`. The traction is `stiffness` times the slip and
+/// at most `limit`: returns the slip cut down to that, and the heat. That is the work of the mean of the tractions before and
+/// after, as the bodies lose it in a step, less what the spring stores; the elastic energy of the slip that was cut would be
+/// more, the longer the step.
 #[inline(always)]
-pub fn stick<S: Space>(slip: S::Vec, stiffness: S::Real, limit: S::Real) -> (S::Vec, S::Real) {
+pub fn stick<S: Space>(before: S::Vec, slip: S::Vec, stiffness: S::Real, limit: S::Real) -> (S::Vec, S::Real) {
     let length = S::inner(slip, slip).sqrt();
     let most = limit / stiffness;
     if length <= most {
         return (slip, S::Real::of(0.0));
     }
-    (slip * (most / length), S::Real::of(0.5) * stiffness * (length - most) * (length + most))
+    let left = slip * (most / length);
+    (left, S::Real::of(0.5) * stiffness * S::inner(before + left, slip - left))
 }
 
 #[cfg(test)]
@@ -110,9 +113,13 @@ mod tests {
     #[test]
     fn slip_beyond_the_limit_turns_into_heat() {
         let slip = Tuple([3.0, 4.0]);
-        let (left, heat) = stick::<Plane<f64>>(slip, 2.0, 4.0);
-        let errors = [left[0] - 1.2, left[1] - 1.6, heat - 21.0];
+        // Steady slip over a distance of 3 against the limit.
+        let (left, heat) = stick::<Plane<f64>>(Tuple([1.2, 1.6]), slip, 2.0, 4.0);
+        let errors = [left[0] - 1.2, left[1] - 1.6, heat - 12.0];
         assert!(errors.iter().all(|error| error.abs() < 1e-14), "{left:?} {heat}");
-        assert_eq!(stick::<Plane<f64>>(slip, 2.0, 11.0), (slip, 0.0));
+        // From rest the mean traction is half the limit, and the spring takes its part.
+        let (_, heat) = stick::<Plane<f64>>(Tuple([0.0, 0.0]), slip, 2.0, 4.0);
+        assert!((heat - (0.5 * 4.0 * 5.0 - 0.25 * 4.0 * 4.0)).abs() < 1e-14, "{heat}");
+        assert_eq!(stick::<Plane<f64>>(Tuple([0.0, 0.0]), slip, 2.0, 11.0), (slip, 0.0));
     }
 }

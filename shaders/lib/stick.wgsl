@@ -6,11 +6,12 @@ struct Stick {
     heat: real,
 }
 
-fn stick(slip: Vec, stiffness: real, limit: real) -> Stick {
+fn stick(before: Vec, slip: Vec, stiffness: real, limit: real) -> Stick {
     let length = sqrt(inner(slip, slip));
     let most = limit / stiffness;
     if length <= most {
         return Stick(slip, 0.0);
     }
-    return Stick(slip * (most / length), 0.5 * stiffness * (length - most) * (length + most));
+    let left = slip * (most / length);
+    return Stick(left, 0.5 * stiffness * inner(before + left, slip - left));
 }

@@ -66,7 +66,7 @@ fn of_facet(e: u32) {
         let normal = sums.normal * (1.0 / sqrt(inner(sums.normal, sums.normal)));
         let grown = slip_before + facet_move[e] - sums.moved * spread;
         let along = grown - normal * inner(grown, normal);
-        let stuck = stick(along, stiffness, sums.pair.friction * force);
+        let stuck = stick(slip_before, along, stiffness, sums.pair.friction * force);
         facet_slip[e] = stuck.slip;
         facet_heat[e] = stuck.heat;
         facet_traction[e] = stuck.slip * -stiffness;

@@ -97,7 +97,7 @@ fn touch_of(e: u32, k: u32, near: Nearest) -> Touch {
     if pair.friction > 0.0 {
         let grown = facet_obstacle_slip[e] + facet_move[e] - obstacle_move[k];
         let along = grown - near.normal * inner(grown, near.normal);
-        let stuck = stick(along, stiffness, pair.friction * force);
+        let stuck = stick(facet_obstacle_slip[e], along, stiffness, pair.friction * force);
         touch.slip = stuck.slip;
         touch.heat = stuck.heat;
         touch.load += stuck.slip * -stiffness;

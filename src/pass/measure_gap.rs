@@ -160,7 +160,7 @@ fn rub<S: Space>(state: &State<S>, e: usize, sums: &Sums<S>, stiffness: S::Real,
     let normal = sums.normal * (S::Real::of(1.0) / length);
     let grown = columns.facet_slip[e] + columns.facet_move[e] - sums.moved * contact.spread;
     let along = grown - normal * S::inner(grown, normal);
-    let (slip, heat) = stick::<S>(along, stiffness, sums.pair.friction * force);
+    let (slip, heat) = stick::<S>(columns.facet_slip[e], along, stiffness, sums.pair.friction * force);
     contact.slip = slip;
     contact.heat = heat;
     contact.traction = slip * (S::Real::of(0.0) - stiffness);

@@ -172,7 +172,7 @@ fn rub<S: Space>(
     let columns = &state.columns;
     let grown = touch.slip + columns.facet_move[e] - columns.obstacle_move[k];
     let along = grown - normal * S::inner(grown, normal);
-    (touch.slip, touch.heat) = stick::<S>(along, stiffness, pair.friction * force);
+    (touch.slip, touch.heat) = stick::<S>(touch.slip, along, stiffness, pair.friction * force);
     touch.load += touch.slip * (S::Real::of(-1.0) * stiffness);
     touch.energy += S::Real::of(0.5) * stiffness * S::inner(touch.slip, touch.slip);
 }
