@@ -86,7 +86,7 @@ pub struct Params<R> {
     pub rest_step: R,
     /// Time that divides the time between any two outputs; 0 if there is none.
     pub interval: R,
-    /// Step times angular frequency up to which the integrator is trusted; 0 if it has no limit.
+    /// Step times angular frequency up to which the integrator is trusted; 0 if it has no limit, or the method no frequencies.
     pub stable: R,
     /// Out-of-balance force over the force scale at which a load step ends.
     pub residual: R,

@@ -52,8 +52,8 @@ fn bound_of(a: u32) -> vec4<real> {
 #if finite_strain
     if params.stable > 0.0 {
         waves = max(waves, params.cfl / params.stable * own.frequency * (1.0 + 0.6 * params.alpha));
+        waves *= sqrt(clamp(stiffening(own, displacement_gradient[a]), 1.0, STIFFEST));
     }
-    waves *= sqrt(max(stiffening(own, displacement_gradient[a]), 1.0));
 #endif
     var rate = max(waves, sqrt(sqrt(pull) / h));
 #if facets
@@ -101,6 +101,7 @@ const HOLDS = true;
 #else
 const HOLDS = false;
 #endif
+const STIFFEST: real = 1e4;
 const SLACK: real = 1.05;
 const RUNG: real = 0.8408964152537146;
 

@@ -64,11 +64,10 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let signal = body.sound_speed * (one + part * params.alpha) + part * params.beta * h * compression;
     let pull = S::inner(columns.acceleration[a], columns.acceleration[a]);
     let mut waves = signal / h;
-    if finite_strain {
-        if params.stable > zero {
-            waves = waves.max(params.cfl / params.stable * body.frequency * (one + part * params.alpha));
-        }
-        waves = waves * material::stiffening::<S>(body, columns.displacement_gradient[a]).max(one).sqrt();
+    if finite_strain && params.stable > zero {
+        let stiffening = material::stiffening::<S>(body, columns.displacement_gradient[a]);
+        waves = waves.max(params.cfl / params.stable * body.frequency * (one + part * params.alpha));
+        waves = waves * stiffening.max(one).min(S::Real::of(STIFFEST)).sqrt();
     }
     let mut rate = waves.max((pull.sqrt() / h).sqrt());
     if state.method.facets() {
@@ -136,6 +135,9 @@ fn clock<S: Space>(state: &mut State<S>, bound: [S::Real; 4]) {
     clock.rebuild = u32::from(!listed_once && ahead > params.slack);
 }
 
+/// Stiffening beyond which steps grow no shorter: a body squeezed so far collapses, and its run shall end with a fault instead of
+/// standing almost still.
+const STIFFEST: f64 = 1e4;
 /// By what part a held step may be above its bound.
 const SLACK: f64 = 1.05;
 /// Ratio of the lengths from which a step that is held is chosen, 2^(-1/4).
