@@ -347,10 +347,12 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         caption: beside.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
         ..output::View::default()
     };
+    let mut first = None;
     for k in steps {
         let snapshot = output::vtkhdf::read_step(&file, k).map_err(refuse)?;
-        // The first frame's box serves all, so that a sequence does not jump.
-        view.bounds = view.bounds.or_else(|| Some(snapshot.bounds()));
+        // The first frame's box serves all, so that a sequence does not jump, but for what leaves it.
+        let first = *first.get_or_insert_with(|| snapshot.bounds());
+        view.bounds = Some(output::follow(first, &snapshot));
         let picture = painter.paint(&snapshot, &view).map_err(refuse)?;
         std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
         output::save_png(&folder.join(format!("{k:05}.png")), &picture).map_err(Stop::Failed)?;

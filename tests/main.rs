@@ -7,6 +7,7 @@
 mod cli;
 #[cfg_attr(not(feature = "hdf5"), allow(dead_code))]
 mod common;
+mod scene;
 
 #[cfg(feature = "hdf5")]
 mod backend;

@@ -92,13 +92,20 @@ fn axis_index(word: Option<&str>) -> Option<usize> {
     word.and_then(|w| ["x", "y", "z"].iter().position(|a| *a == w))
 }
 
+/// Whether a kind follows the particle that starts nearest to its point. Others measure from a place, which may be empty.
+fn follows(kind: &ObservableKind, typed: &Observe) -> bool {
+    kind.word != zone::ZONE.word && !(kind.word == probe::PROBE.word && typed.interpolate)
+}
+
 /// Resolves the scene's observables.
 pub fn observers(scene: &Scene) -> Vec<Observer> {
     let resolve = |(name, typed): (&String, &Observe)| {
         let kind = KINDS.iter().find(|kind| kind.word == typed.kind)?;
+        let (body, inside) = (typed.body.as_deref(), typed.inside.as_ref());
         let particles = match &typed.at {
-            Some(at) if kind.word != zone::ZONE.word => vec![scene.nearest(at.vector())],
-            _ => scene.select(typed.body.as_deref(), typed.inside.as_ref()),
+            // A point outside was refused before the run: see [`check`].
+            Some(at) if follows(kind, typed) => scene.nearest(at.vector(), body, inside).into_iter().collect(),
+            _ => scene.select(body, inside),
         };
         Some(Observer { name: name.clone(), typed: typed.clone(), kind, particles, axis: axis_index(typed.axis.as_deref()) })
     };
@@ -176,7 +183,10 @@ fn check_one(scene: &Scene, name: &str, typed: &Observe) -> Result<(), String> {
     }
     let selected = scene.select(typed.body.as_deref(), typed.inside.as_ref());
     if selected.is_empty() {
-        return Err("selects no particle".into());
+        return Err(scene.selects_none(typed.body.as_deref(), typed.inside.as_ref()));
+    }
+    if let Some(at) = typed.at.as_ref().filter(|_| follows(kind, typed)) {
+        scene.nearest(at.vector(), typed.body.as_deref(), typed.inside.as_ref())?;
     }
     check_numbers(typed)?;
     moment::check_fields(scene, kind.fields, &selected)?;

@@ -16,13 +16,22 @@ pub struct Axis {
 
 impl Axis {
     /// About `count` ticks, at multiples of 1, 2 or 5 times a power of ten.
-    pub fn new([low, high]: [f64; 2], count: usize) -> Self {
+    pub fn new(range: [f64; 2], count: usize) -> Self {
+        Self::in_power(range, count, thousands(range[0].abs().max(range[1].abs())))
+    }
+
+    /// Two axes in one unit, which two lengths beside each other must have.
+    pub fn alike(ranges: [[f64; 2]; 2], counts: [usize; 2]) -> [Self; 2] {
+        let power = thousands(ranges.as_flattened().iter().fold(0.0, |largest, end| largest.max(end.abs())));
+        [0, 1].map(|k| Self::in_power(ranges[k], counts[k], power))
+    }
+
+    fn in_power([low, high]: [f64; 2], count: usize, power: i32) -> Self {
         let rough = (high - low) / count as f64;
         let decade = 10f64.powf(rough.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * decade).into_iter().find(|&s| s >= 0.999 * rough).unwrap_or(rough);
         let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
         let ticks = (0..=(last - first).max(0.0) as usize).map(|k| (first + k as f64) * step).collect();
-        let power = thousands(low.abs().max(high.abs()));
         let decimals = (-(step * 10f64.powi(-power)).log10() - 1e-6).ceil().clamp(0.0, 9.0) as usize;
         Self { range: [low, high], ticks, power, decimals }
     }
@@ -96,6 +105,15 @@ mod tests {
         let axis = Axis::new([-0.0003, 0.0007], 6);
         assert_eq!((axis.power, axis.label(axis.ticks[0])), (-6, "-200".into()));
         assert!(Axis::new([1e5, 1.00001e5], 5).ticks.len() > 3);
+    }
+
+    #[test]
+    fn lengths_beside_each_other_have_one_unit() {
+        let [across, up] = Axis::alike([[-0.01, 0.11], [-0.005, 0.085]], [7, 6]);
+        assert_eq!((across.power, up.power), (0, 0));
+        assert_eq!((up.label(up.ticks[0]), up.label(up.ticks[1])), ("0.00".into(), "0.02".into()));
+        let [across, up] = Axis::alike([[0.0, 0.03], [0.0, 2e-4]], [7, 6]);
+        assert_eq!((across.power, up.power, up.label(up.ticks[1])), (-3, -3, "0.05".into()));
     }
 
     #[test]

@@ -16,6 +16,7 @@ pub mod axis;
 pub mod camera;
 pub mod colour;
 pub mod csv;
+mod follow;
 pub mod impostor;
 mod ink;
 pub mod overlay;
@@ -27,6 +28,7 @@ pub mod splat;
 #[cfg(feature = "hdf5")]
 pub mod vtkhdf;
 
+pub use follow::follow;
 pub use picture::View;
 pub use snapshot::{Column, Snapshot};
 

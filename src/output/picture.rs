@@ -112,7 +112,7 @@ fn body(snapshot: &Snapshot, view: &View, values: &[f64], scale: ColourScale, bo
     if flat {
         let reach = [0.5 * wide / camera.scale, 0.5 * high / camera.scale];
         let shown = |k: usize| [camera.middle[k] - reach[k], camera.middle[k] + reach[k]];
-        layout.axes = Some([Axis::new(shown(0), 7), Axis::new(shown(1), 6)]);
+        layout.axes = Some(Axis::alike([shown(0), shown(1)], [7, 6]));
     } else {
         layout.triad = Some(camera.triad());
     }

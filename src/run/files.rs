@@ -115,7 +115,11 @@ impl Files {
             let path = self.folder.join("particles.vtkhdf");
             if self.frames == 0 { output::vtkhdf::create(&path, &snapshot)? } else { output::vtkhdf::append(&path, &snapshot)? }
         }
-        let picture = self.painter.paint(&snapshot, &view(scene))?;
+        let mut view = view(scene);
+        if scene.file.output.picture.bounds.is_none() {
+            view.bounds = view.bounds.map(|first| output::follow(first, &snapshot));
+        }
+        let picture = self.painter.paint(&snapshot, &view)?;
         let place = format!("frames/{:05}.png", self.frames);
         output::save_png(&self.folder.join(&place), &picture)?;
         self.frames += 1;
@@ -152,7 +156,7 @@ fn painter(options: &Options) -> Result<Painter, String> {
     }
 }
 
-/// How a scene is looked at.
+/// How a scene is looked at in its first frame.
 pub fn view(scene: &Scene) -> View {
     let picture = &scene.file.output.picture;
     let bounds = match &picture.bounds {

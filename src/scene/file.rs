@@ -208,6 +208,7 @@ pub struct Kick {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulationTable {
+    /// `total_lagrangian` unless given, if the laws of all its bodies are of that formulation, else `eulerian`.
     pub kind: Formulation,
     pub smoothing: Smoothing,
     /// h over the particle spacing.
@@ -628,7 +629,7 @@ pub struct Picture {
     pub height: u32,
     /// Direction from which a 3D scene is seen.
     pub eye: Option<[f64; 3]>,
-    /// Corners of what is shown; the whole scene over the whole run unless given.
+    /// Corners of what is shown, in every picture; unless given the bodies at the start, and more where one leaves that.
     pub bounds: Option<[Coordinates; 2]>,
 }
 
@@ -721,6 +722,26 @@ pub enum Statistic {
     Mean,
     /// Largest distance from the first value.
     Drift,
+}
+
+impl Statistic {
+    pub const ALL: [Self; 6] = [Self::Final, Self::First, Self::Min, Self::Max, Self::Mean, Self::Drift];
+
+    /// Word in a scene.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Final => "final",
+            Self::First => "first",
+            Self::Min => "min",
+            Self::Max => "max",
+            Self::Mean => "mean",
+            Self::Drift => "drift",
+        }
+    }
+
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|statistic| statistic.word() == word)
+    }
 }
 
 /// What the studies of `lithosph study` vary.

@@ -1,6 +1,7 @@
 //! A scene as it runs.
 
 use super::members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
+use super::near::Near;
 use super::{copies, file, shape};
 use crate::fields::Field;
 use crate::method::Method;
@@ -130,9 +131,22 @@ impl Scene {
             .collect()
     }
 
-    /// Number of the particle nearest to a point at the start.
-    pub fn nearest(&self, point: DVec3) -> usize {
-        let distance = |i: &usize| self.particles[*i].position.distance_squared(point);
-        (0..self.particles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    /// Number of the particle nearest to a point at the start, of those that [`Self::select`] leaves.
+    ///
+    /// # Errors
+    /// Where the point lies outside of them: how far, and where the nearest one is.
+    pub fn nearest(&self, point: DVec3, body: Option<&str>, inside: Option<&shape::Shape>) -> Result<usize, String> {
+        let selected = self.select(body, inside);
+        self.near().point(point, |i| selected.binary_search(&i).is_ok())
+    }
+
+    /// That [`Self::select`] leaves no particle, and where the nearest one is.
+    pub fn selects_none(&self, body: Option<&str>, inside: Option<&shape::Shape>) -> String {
+        let of_body = self.select(body, None);
+        self.near().none_in(inside, |i| of_body.binary_search(&i).is_ok())
+    }
+
+    fn near(&self) -> Near<'_> {
+        Near { bodies: &self.bodies, particles: &self.particles, dimension: self.dimension() }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, Axis, File, Fixed, FormulationTable, Viscosity};
+use super::file::{ArtificialSpacing, File, FormulationTable, Viscosity};
 use super::groups::{Group, across, check_parted, groups, of_body};
+use super::held::held;
 use super::material::Material;
 use super::packing::fill;
 use super::read::{Read, hint};
@@ -11,7 +12,7 @@ use super::refuse::{MOST_OUTPUTS, Refuse};
 use super::shape::used;
 use super::surfaces::Parts;
 use super::warn::warnings;
-use super::{Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, file, plasticity, quasi_static};
+use super::{Near, Particle, Plane, Scene, SceneBody, SceneConstraint, contacts, count, plasticity, quasi_static};
 use crate::material::Law;
 use crate::method::{Configuration, Density, Formulation, Gradient, Integrator, Method};
 use crate::rows::BodyOptions;
@@ -299,13 +300,11 @@ fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Partic
     if let Some(wild) = particles.iter().find(|p: &&Particle| !p.velocity.is_finite()) {
         return Err(refuse.at(&["body", &wild.body.to_string()], "the velocity must be a finite number".to_string()));
     }
-    for kick in &file.kick {
-        let at = kick.at.vector();
-        let distance = |p: &Particle| p.position.distance_squared(at);
-        let near = particles.iter_mut().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(particle) = near {
-            particle.velocity += used(kick.velocity.vector(), file.dimension);
-        }
+    for (k, kick) in file.kick.iter().enumerate() {
+        let near = Near { bodies, particles: &particles, dimension: file.dimension };
+        let kicked = near.point(kick.at.vector(), |_| true);
+        let i = kicked.map_err(|message| refuse.at(&["kick", &k.to_string(), "at"], format!("the kick {message}")))?;
+        particles[i].velocity += used(kick.velocity.vector(), file.dimension);
     }
     Ok(particles)
 }
@@ -332,7 +331,10 @@ fn constraints(
         };
         let mass: f64 = particles.iter().filter(|p| chosen(p)).map(|p| p.volume * bodies[p.body as usize].material.density).sum();
         if mass == 0.0 {
-            return Err(refuse.at(&path, format!("`{name}` selects no particle")));
+            let near = Near { bodies, particles, dimension: file.dimension };
+            let of_body =
+                |i: usize| wanted.as_ref().is_none_or(|list| list.binary_search(&(near.particles[i].body as usize)).is_ok());
+            return Err(refuse.at(&path, format!("`{name}` {}", near.none_in(typed.select.inside.as_ref(), of_body))));
         }
         let (prescribed, vector) = held(typed, file.dimension, mass).map_err(|m| refuse.at(&path, format!("`{name}` {m}")))?;
         list.push(SceneConstraint { name, prescribed, vector, course: typed.course.clone().unwrap_or_default() });
@@ -347,34 +349,6 @@ fn constraints(
         }
     }
     Ok(list)
-}
-
-/// The axes along which a boundary condition prescribes the velocity, and that velocity, or else an acceleration.
-fn held(typed: &file::Boundary, dimension: usize, mass: f64) -> Result<([bool; 3], [f64; 3]), String> {
-    let (mut prescribed, mut vector) = ([false; 3], [0.0; 3]);
-    match (&typed.fixed, &typed.velocity, &typed.force) {
-        (Some(Fixed::All(true)), None, None) => prescribed[..dimension].fill(true),
-        (Some(Fixed::Axes(axes)), None, force) if axes.len() == dimension => {
-            prescribed[..dimension].copy_from_slice(axes);
-            if let Some(force) = force {
-                vector = (force.vector() / mass).to_array();
-            }
-        }
-        (None, Some(velocity), force) if velocity.len() == dimension => {
-            if let Some(force) = force {
-                vector = (force.vector() / mass).to_array();
-            }
-            for (k, axis) in velocity.iter().enumerate() {
-                if let Axis::Value(value) = axis {
-                    (prescribed[k], vector[k]) = (true, *value);
-                }
-            }
-        }
-        (None, None, Some(force)) => vector = (force.vector() / mass).to_array(),
-        (None, None, None) => return Err("needs one of fixed, velocity or force".into()),
-        _ => return Err(format!("takes fixed or velocity, not both, with {dimension} components")),
-    }
-    Ok((prescribed, vector))
 }
 
 fn coupling(file: &File, bodies: &[SceneBody], groups: &[Group], refuse: &Refuse) -> Result<Vec<Vec<f64>>, String> {

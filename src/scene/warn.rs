@@ -1,11 +1,63 @@
 //! What a scene may mean but most likely does not: a run says it once and goes on.
 
 use super::Scene;
+use super::file::BodyTable;
+use super::groups::of_body;
 use super::refuse::Refuse;
+use super::shape::Coordinates;
+use crate::method::Formulation;
+use glam::DVec3;
 
 /// One sentence for each thing that a reader of the results would misread, each beginning with the place where it was typed.
 pub(super) fn warnings(scene: &Scene, refuse: &Refuse) -> Vec<String> {
-    courses(scene, refuse)
+    let mut list = courses(scene, refuse);
+    list.extend(tension(scene, refuse));
+    list
+}
+
+/// Eulerian solids that something strains, with nothing against the tensile instability. A scene that means it types an epsilon
+/// of 0.
+fn tension(scene: &Scene, refuse: &Refuse) -> Option<String> {
+    let file = &scene.file;
+    let bare = |k: usize| {
+        of_body(file, k).is_some_and(|formulation| {
+            formulation.kind == Formulation::Eulerian
+                && formulation.artificial_stress.is_none()
+                && scene.bodies[k].material.shear_modulus > 0.0
+        })
+    };
+    let mut names: Vec<&str> =
+        (0..file.body.len()).filter(|&k| bare(k) && strained(scene, k)).map(|k| &*scene.bodies[k].group).collect();
+    names.dedup();
+    let first = scene.bodies.iter().position(|body| Some(&&*body.group) == names.first())?;
+    let path: Vec<&str> = ["formulation"].into_iter().chain(file.body[first].formulation.as_deref()).collect();
+    Some(refuse.at(
+        &path,
+        format!(
+            "`{}`: a solid of the Eulerian formulation without artificial_stress, which clumps and breaks for numerical reasons \
+             where it is pulled: give it one, such as `artificial_stress = {{ epsilon = 0.3 }}`, or take a law of the \
+             formulation `total_lagrangian`",
+            names.join("`, `")
+        ),
+    ))
+}
+
+/// Whether a body may be pulled: by what is prescribed, by its own state or motion, or by the wave that an impact sends back.
+fn strained(scene: &Scene, k: usize) -> bool {
+    let (file, own) = (&scene.file, &scene.file.body[k]);
+    let loaded = file.boundary.iter().any(|typed| typed.velocity.is_some() || typed.force.is_some());
+    let forced = file.body_force.as_ref().is_some_and(|force| force.iter().any(|&part| part != 0.0));
+    let stretched = own.relative_volume.is_some_and(|volume| volume > 1.0) || own.deviatoric_stress.is_some();
+    let state = |body: &BodyTable| {
+        let (low, high) = body.shape.bounds(file.dimension);
+        (0.5 * (low + high), body.velocity.as_ref().map_or(DVec3::ZERO, Coordinates::vector))
+    };
+    let (place, velocity) = state(own);
+    let approaches = |other: &BodyTable| {
+        let (there, other) = state(other);
+        (velocity - other).dot(there - place) > 0.0
+    };
+    loaded || forced || stretched || own.spin != 0.0 || own.motion.is_some() || file.body.iter().any(approaches)
 }
 
 /// Courses of loads that the run does not follow to their end.

@@ -62,6 +62,28 @@ pub(super) fn is_choice(key: &str) -> bool {
     look_up(&CHOICES, key).is_some()
 }
 
+/// Keys of the scene itself that are tables: no line that is out of place becomes right before all tables.
+const TABLES: [&str; 15] = [
+    "body",
+    "material",
+    "formulation",
+    "contact",
+    "obstacle",
+    "boundary",
+    "symmetry",
+    "kick",
+    "time",
+    "quasi_static",
+    "output",
+    "observe",
+    "expect",
+    "study",
+    "variant",
+];
+
+/// What is typed under an observable for its selection.
+const SELECTIONS: [&str; 5] = ["boundary", "select", "selection", "region", "particles"];
+
 /// What is wrong and what was expected, in one sentence without its place.
 pub(super) fn sentence(fault: &Fault) -> String {
     let message = fault.message;
@@ -154,7 +176,14 @@ fn unknown_key(fault: &Fault) -> String {
         return one_line(fault.message);
     };
     let valid = expected_words(fault.message, key);
-    if !table.is_empty() && fault.top {
+    if table.first().is_some_and(|table| table == "observe") && SELECTIONS.contains(&key.as_str()) {
+        return format!(
+            "unknown key `{key}` in {}: an observable names its particles by `body`, by `inside`, which takes the shape that a \
+             boundary selects, or by both",
+            quoted(table)
+        );
+    }
+    if !table.is_empty() && fault.top && !TABLES.contains(&key.as_str()) {
         return format!("unknown key `{key}` in {}, it belongs at the top of the scene, before all tables", quoted(table));
     }
     let inside = match nearest(key, valid.iter().copied()) {
@@ -195,6 +224,9 @@ fn wanted(message: &str, path: &[String]) -> Option<String> {
     let own = path.last().map_or("", String::as_str);
     if message.starts_with("data did not match any variant") {
         return look_up(&UNTAGGED, key).map(str::to_string);
+    }
+    if let Some(table) = message.strip_prefix("wanted the table ") {
+        return Some(format!("a table {table}"));
     }
     if message.starts_with("wanted") || message.contains(": unit variant, expected") {
         return Some(match (choice(key), key) {

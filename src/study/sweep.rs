@@ -6,9 +6,12 @@ use super::accuracy::matrix::Matrix;
 use super::accuracy::source::Source;
 use super::accuracy::table::line;
 use crate::backend::Choice;
+use crate::check;
 use crate::observable::{KINDS, Value};
 use crate::run::{self, Options, Stop};
 use crate::scene::Scene;
+use crate::scene::file::{Expect, Statistic};
+use crate::scene::read::hint;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +22,9 @@ pub struct Request {
     pub variant: Option<String>,
     /// `path=value,value` for each axis.
     pub vary: Vec<String>,
+    /// Numbers of the columns, each an observable or `OBSERVABLE.STATISTIC`; unless given all results, or where the scene has
+    /// none the last, least and largest value of each series.
+    pub numbers: Vec<String>,
     pub choice: Choice,
     /// `out/study/SCENE[-VARIANT]-sweep.csv` unless given.
     pub out: Option<PathBuf>,
@@ -36,12 +42,9 @@ pub fn run(request: &Request, mut tell: impl FnMut(&str)) -> Result<String, Stop
     }
     let matrix = Matrix::new(&request.vary, &read, |overrides| source.open(overrides)).map_err(Stop::Refused)?;
     let scene = source.open(&[]).map_err(Stop::Refused)?;
-    let names = results(&scene);
-    if names.is_empty() {
-        return Err(Stop::Refused(format!("{} finds no result: a sweep needs one in [observe]", scene.label())));
-    }
+    let columns = columns(&scene, &request.numbers).map_err(Stop::Refused)?;
     let path = request.out.clone().unwrap_or_else(|| format!("out/study/{}-sweep.csv", scene.label()).into());
-    let header: Vec<String> = matrix.paths.iter().cloned().chain(names.iter().cloned()).collect();
+    let header: Vec<String> = matrix.paths.iter().cloned().chain(columns.iter().map(|column| column.0.clone())).collect();
     let mut rows = begin(&path, &line(&header)).map_err(Stop::Refused)?;
     if let Some((count, reason)) = &matrix.left_out {
         tell(&format!("{count} settings are left out, the first because {reason}"));
@@ -54,7 +57,7 @@ pub fn run(request: &Request, mut tell: impl FnMut(&str)) -> Result<String, Stop
         let scene = source.open(&setting.overrides).map_err(Stop::Refused)?;
         let options = Options { choice: request.choice.clone(), dry: true, quiet: true, ..Options::default() };
         let finished = run::run(&scene, &options)?;
-        let numbers = names.iter().map(|name| number(&scene, &finished, name));
+        let numbers = columns.iter().map(|column| number(&scene, &finished, column));
         let row = line(&setting.shown.iter().cloned().chain(numbers).collect::<Vec<_>>());
         tell(&row);
         append(&path, &row).map_err(Stop::Failed)?;
@@ -63,20 +66,59 @@ pub fn run(request: &Request, mut tell: impl FnMut(&str)) -> Result<String, Stop
     Ok(std::iter::once(line(&header)).chain(rows).collect::<Vec<_>>().join("\n"))
 }
 
-/// Observables that are found from a finished run.
-fn results(scene: &Scene) -> Vec<String> {
-    let found = |word: &str| KINDS.iter().any(|kind| kind.word == word && matches!(kind.value, Value::Result(_)));
-    scene.file.observe.iter().filter(|(_, typed)| found(&typed.kind)).map(|(name, _)| name.clone()).collect()
+/// Header, observable and, for a series, statistic of a number.
+type Column = (String, String, Option<Statistic>);
+
+/// The numbers that a sweep takes of each run.
+fn columns(scene: &Scene, asked: &[String]) -> Result<Vec<Column>, String> {
+    if !asked.is_empty() {
+        return asked.iter().map(|text| column(scene, text)).collect();
+    }
+    let of_kind = |wanted: fn(&Value) -> bool| {
+        let kinds = move |word: &str| KINDS.iter().any(|kind| kind.word == word && wanted(&kind.value));
+        let names = scene.file.observe.iter().filter(move |(_, typed)| kinds(&typed.kind));
+        names.map(|(name, _)| name.clone())
+    };
+    let results: Vec<Column> =
+        of_kind(|value| matches!(value, Value::Result(_))).map(|name| (name.clone(), name, None)).collect();
+    if !results.is_empty() {
+        return Ok(results);
+    }
+    let of_series = |name: String| {
+        let words = ["final", "min", "max"];
+        words.map(|word| (format!("{name}.{word}"), name.clone(), Statistic::of_word(word)))
+    };
+    let series: Vec<Column> = of_kind(|value| matches!(value, Value::Series(_))).flat_map(of_series).collect();
+    if series.is_empty() {
+        let label = scene.label();
+        return Err(format!("{label} observes nothing that is a number: a sweep needs a series or a result in [observe]"));
+    }
+    Ok(series)
 }
 
-/// A result of a run, or why there is none.
-fn number(scene: &Scene, finished: &run::Finished, name: &str) -> String {
-    let typed = &scene.file.observe[name];
+/// `OBSERVABLE` or `OBSERVABLE.STATISTIC` as typed.
+fn column(scene: &Scene, text: &str) -> Result<Column, String> {
+    let (name, word) = text.split_once('.').map_or((text, None), |(name, word)| (name, Some(word)));
+    let Some(typed) = scene.file.observe.get(name) else {
+        let names: Vec<&str> = scene.file.observe.keys().map(String::as_str).collect();
+        return Err(format!("--number {text}: {} observes no `{name}`{}", scene.label(), hint(name, &names)));
+    };
     let kind = KINDS.iter().find(|kind| kind.word == typed.kind).map(|kind| &kind.value);
-    match kind {
-        Some(Value::Result(of)) => of(&finished.table, typed).map_or_else(|why| why, |number| number.to_string()),
-        _ => String::new(),
+    let statistic = word.map(|word| {
+        let words = Statistic::ALL.map(Statistic::word);
+        Statistic::of_word(word).ok_or_else(|| format!("--number {text}: no statistic `{word}`{}", hint(word, &words)))
+    });
+    match (kind, statistic.transpose()?) {
+        (Some(Value::Result(_)), Some(_)) => Err(format!("--number {text}: `{name}` is one number, which has no statistic")),
+        (Some(Value::Trace), _) => Err(format!("--number {text}: `{name}` is a trace, not a number")),
+        (_, statistic) => Ok((text.into(), name.into(), statistic)),
     }
+}
+
+/// A number of a run, or why there is none.
+fn number(scene: &Scene, finished: &run::Finished, (_, name, statistic): &Column) -> String {
+    let expect = Expect { statistic: *statistic, ..Expect::default() };
+    check::number(scene, finished, name, &expect).map_or_else(|why| why, |number| number.to_string())
 }
 
 /// Rows of the file; makes it where there is none.

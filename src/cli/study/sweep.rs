@@ -15,6 +15,11 @@ pub struct SweepArgs {
     /// An axis of the matrix: `--vary contact.0.gap.friction=0,0.2,0.4`. May be given several times.
     #[arg(long, value_name = "PATH=V1,V2")]
     vary: Vec<String>,
+    /// A number to take of each run: a result, or a statistic of a series, such as `tip.max` (first, final, min, max, mean or
+    /// drift). May be given several times; all results unless given, or of a scene that finds none final, min and max of each
+    /// series.
+    #[arg(long, value_name = "OBSERVABLE[.STATISTIC]")]
+    number: Vec<String>,
     #[arg(long, value_enum, default_value = "cpu")]
     backend: PlaceWord,
     /// The CSV; out/study/SCENE[-VARIANT]-sweep.csv unless given.
@@ -27,6 +32,7 @@ pub fn sweep(args: &SweepArgs) -> Result<i32, Stop> {
         scene: args.scene.clone(),
         variant: args.variant.clone(),
         vary: args.vary.clone(),
+        numbers: args.number.clone(),
         choice: args.backend.choice(),
         out: args.out.clone(),
     };

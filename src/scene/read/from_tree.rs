@@ -5,8 +5,9 @@ use super::super::file::{File, FormulationTable};
 use super::super::words::{Fault, nearest, sentence};
 use super::tree::{Entry, Node, Place, Value, show};
 use serde::Deserialize;
-use serde::de::value::{BorrowedStrDeserializer, MapAccessDeserializer, MapDeserializer};
-use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde::de::value::{BorrowedStrDeserializer, MapDeserializer};
+use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess};
+use serde::de::{Unexpected, VariantAccess, Visitor};
 use std::collections::{BTreeMap, btree_map};
 use std::iter::Enumerate;
 use std::{fmt, slice};
@@ -23,7 +24,12 @@ pub(super) fn deserialize(root: &Node, name: &str) -> Result<File, String> {
         return Err(format!("{name}: unknown key `{FORMULATIONS}`: a named formulation is typed as [formulation.NAME]"));
     }
     let root = &formulations_apart(root);
-    File::deserialize(root).map_err(|wrong| wrong.complaint(root, name))
+    let mut file = File::deserialize(root).map_err(|wrong| wrong.complaint(root, name))?;
+    file.settle_kinds(|formulation| match (formulation, root.under(FORMULATIONS)) {
+        (None, _) => root.names("formulation").contains(&"kind"),
+        (Some(formulation), named) => named.is_some_and(|named| named.names(formulation).contains(&"kind")),
+    });
+    Ok(file)
 }
 
 /// The scene with its named formulations beside the plain one, where serde finds them by their type. A table under a key
@@ -177,10 +183,10 @@ impl<'de> Deserializer<'de> for &'de Node {
     fn deserialize_enum<V: Visitor<'de>>(self, _: &'static str, _: Words, visitor: V) -> Result<V::Value, Wrong<'de>> {
         let read = match &self.value {
             Value::Text(word) => visitor.visit_enum(BorrowedStrDeserializer::new(word)),
-            Value::Table(entries) if entries.len() == 1 => {
-                visitor.visit_enum(MapAccessDeserializer::new(Entries { rest: entries.iter(), last: None }))
-            }
-            Value::Table(_) => Err(Wrong::custom("wanted exactly 1 element")),
+            Value::Table(entries) => match entries.iter().next() {
+                Some((key, entry)) if entries.len() == 1 => visitor.visit_enum(Choice { key, entry }),
+                _ => Err(Wrong::custom("wanted exactly 1 element")),
+            },
             _ => Err(Wrong::custom("wanted string or table")),
         };
         read.map_err(|wrong| wrong.at(&self.place, self))
@@ -221,6 +227,55 @@ impl<'a> MapAccess<'a> for Entries<'a> {
     fn next_value_seed<V: DeserializeSeed<'a>>(&mut self, seed: V) -> Result<V::Value, Wrong<'a>> {
         let (key, Entry { node, .. }) = self.last.expect("serde asks for a value after its key");
         seed.deserialize(node).map_err(|wrong| wrong.at(&node.place, node).under(key))
+    }
+}
+
+/// The one key of a table, which says what kind of thing it holds.
+#[derive(Clone, Copy)]
+struct Choice<'a> {
+    key: &'a String,
+    entry: &'a Entry,
+}
+
+impl<'a> Choice<'a> {
+    fn read<T>(self, read: impl FnOnce(&'a Node) -> Result<T, Wrong<'a>>) -> Result<T, Wrong<'a>> {
+        let node = &self.entry.node;
+        read(node).map_err(|wrong| wrong.at(&node.place, node).under(self.key))
+    }
+}
+
+impl<'a> EnumAccess<'a> for Choice<'a> {
+    type Error = Wrong<'a>;
+    type Variant = Self;
+
+    fn variant_seed<V: DeserializeSeed<'a>>(self, seed: V) -> Result<(V::Value, Self), Wrong<'a>> {
+        let read = seed.deserialize(BorrowedStrDeserializer::new(self.key));
+        let word = read.map_err(|wrong: Wrong| wrong.at(&self.entry.place, &self.entry.node).under(self.key))?;
+        Ok((word, self))
+    }
+}
+
+impl<'a> VariantAccess<'a> for Choice<'a> {
+    type Error = Wrong<'a>;
+
+    fn unit_variant(self) -> Result<(), Wrong<'a>> {
+        self.read(<()>::deserialize)
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'a>>(self, seed: T) -> Result<T::Value, Wrong<'a>> {
+        self.read(|node| seed.deserialize(node))
+    }
+
+    fn tuple_variant<V: Visitor<'a>>(self, length: usize, visitor: V) -> Result<V::Value, Wrong<'a>> {
+        self.read(|node| node.deserialize_tuple(length, visitor))
+    }
+
+    /// A table, and never a list of its values in their order.
+    fn struct_variant<V: Visitor<'a>>(self, fields: Words, visitor: V) -> Result<V::Value, Wrong<'a>> {
+        self.read(|node| match &node.value {
+            Value::Table(_) => node.deserialize_map(visitor),
+            _ => Err(Wrong::custom(format!("wanted the table {{ {} }}", fields.join(", ")))),
+        })
     }
 }
 

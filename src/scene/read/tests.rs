@@ -166,7 +166,11 @@ fn what_serde_would_let_pass_is_refused() {
     let stress = "10: `body.0.deviatoric_stress` must be a list of 6 numbers, found a list of 7";
     assert_complaints(&[
         ("velocity = [1, 0]", "deviatoric_stress = [1, 2, 3, 4, 5, 6, 7]", stress),
-        ("{ center = [0, 0], inner = 30, outer = 35 }", "[[0], 30, 35]", "8: `body.0.shape.ring` must be a table, found a list"),
+        (
+            "{ center = [0, 0], inner = 30, outer = 35 }",
+            "[[0], 30, 35]",
+            "8: `body.0.shape.ring` must be a table { center, inner, outer }, found a list",
+        ),
         ("\"gaussian\"", "{ gaussian = {} }", "21: `formulation.smoothing` must be a word, found a table"),
         ("smoothing = \"gaussian\"", "viscosity = 2024-01-01", "21: `formulation.viscosity` must be a table, found a date"),
         ("[time]", "[[time]]", "35: `time` must be a table, found a list"),

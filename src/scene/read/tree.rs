@@ -87,10 +87,13 @@ impl Node {
 
     /// The keys of the table under a key of this one.
     pub fn names(&self, key: &str) -> Vec<&str> {
-        let Value::Table(entries) = &self.value else {
-            return Vec::new();
-        };
-        entries.get(key).map_or_else(Vec::new, |entry| entry.node.keys())
+        self.under(key).map_or_else(Vec::new, Node::keys)
+    }
+
+    /// What lies under a key of this table.
+    pub fn under(&self, key: &str) -> Option<&Node> {
+        let Value::Table(entries) = &self.value else { return None };
+        entries.get(key).map(|entry| &entry.node)
     }
 
     pub fn keys(&self) -> Vec<&str> {
