@@ -2,7 +2,7 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, File, FormulationTable, Viscosity};
+use super::file::{ArtificialSpacing, EnergyWatch, File, FormulationTable, Viscosity};
 use super::groups::{Group, across, check_parted, groups, of_body};
 use super::held::held;
 use super::material::Material;
@@ -128,7 +128,7 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(drift) = file.watch.energy_drift {
         let path = ["watch", "energy_drift"];
         one(drift, &path, "energy_drift")?;
-        refuse.unless(file.watch.energy == file::EnergyWatch::Stop, &path, || {
+        refuse.unless(file.watch.energy == EnergyWatch::Stop, &path, || {
             "energy_drift says where a run stops, and watch.energy stops none: give one of the two".into()
         })?;
     }
@@ -346,6 +346,11 @@ fn constraints(
                 );
             }
             particle.constraint = k as u32 + 1;
+            // What is held sets off as it is held: its energy at the start is then that of the run.
+            let factor = list[k].factor(0.0).unwrap_or(1.0);
+            for axis in (0..file.dimension).filter(|&axis| prescribed[axis]) {
+                particle.velocity[axis] = vector[axis] * factor;
+            }
         }
     }
     Ok(list)
