@@ -2,7 +2,7 @@
 
 use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
-use super::file::{ArtificialSpacing, File, FormulationTable, Viscosity};
+use super::file::{ArtificialSpacing, EnergyWatch, File, FormulationTable, Viscosity};
 use super::groups::{Group, across, check_parted, groups, of_body};
 use super::material::Material;
 use super::packing::fill;
@@ -158,7 +158,7 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     if let Some(drift) = file.watch.energy_drift {
         let path = ["watch", "energy_drift"];
         one(drift, &path, "energy_drift")?;
-        refuse.unless(file.watch.energy == super::file::EnergyWatch::Stop, &path, || {
+        refuse.unless(file.watch.energy == EnergyWatch::Stop, &path, || {
             "energy_drift says where a run stops, and watch.energy stops none: give one of the two".into()
         })?;
     }
