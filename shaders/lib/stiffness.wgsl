@@ -26,14 +26,18 @@ fn least_strain(h: Mat) -> real {
 // The smallest root of x^3 - t x^2 + s x - q, by Laguerre's iteration from below.
 fn least_root(t: real, s: real, q: real) -> real {
     var x: real = -1.0;
-    for (var k = 0u; k < 4u; k++) {
+    for (var k = 0u; k < 6u; k++) {
         let value = ((x - t) * x + s) * x - q;
         if value >= 0.0 {
             break;
         }
         let first = ((3.0 * x - 2.0 * t) * x + s) / value;
         let second = first * first - 2.0 * (3.0 * x - t) / value;
-        x -= 3.0 / (first - sqrt(max(2.0 * (3.0 * second - first * first), 0.0)));
+        let rate = first - sqrt(max(2.0 * (3.0 * second - first * first), 0.0));
+        if rate >= 0.0 {
+            break;
+        }
+        x = min(x - 3.0 / rate, t * (1.0 / 3.0));
     }
     return x;
 }

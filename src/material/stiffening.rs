@@ -40,7 +40,7 @@ pub fn least_strain<S: Space>(h: S::Mat) -> S::Real {
 fn least_root<R: Real>(t: R, s: R, q: R) -> R {
     let (zero, two, three) = (R::of(0.0), R::of(2.0), R::of(3.0));
     let mut x = R::of(-1.0);
-    for _ in 0..4 {
+    for _ in 0..6 {
         let value = ((x - t) * x + s) * x - q;
         if value >= zero {
             break;
@@ -48,7 +48,12 @@ fn least_root<R: Real>(t: R, s: R, q: R) -> R {
         let (slope, bend) = ((three * x - two * t) * x + s, two * (three * x - t));
         let first = slope / value;
         let second = first * first - bend / value;
-        x -= three / (first - (two * (three * second - first * first)).max(zero).sqrt());
+        let rate = first - (two * (three * second - first * first)).max(zero).sqrt();
+        // At a root of several to rounding nothing is left to go by; no root that is the smallest is above their mean.
+        if rate >= zero {
+            break;
+        }
+        x = (x - three / rate).min(t * R::of(1.0 / 3.0));
     }
     x
 }

@@ -1,9 +1,10 @@
 use super::*;
 
 fn scene(changes: &str) -> Scene {
+    let law = if changes.contains(LAGRANGIAN) { "law = 'neo_hookean'" } else { "law = 'elastic'" };
     let text = format!(
         "title = 't'\ndimension = 2\nunits = 'dimensionless'\nspacing = 1\nduration = 10\n{changes}\n\
-         [material.rubber]\ndensity = 1\nyoungs_modulus = 1\npoisson_ratio = 0.3\n"
+         [material.rubber]\n{law}\ndensity = 1\nyoungs_modulus = 1\npoisson_ratio = 0.3\n"
     );
     Scene::parse(&text, "s", None, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
