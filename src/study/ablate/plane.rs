@@ -275,7 +275,8 @@ force = [0, 2, 0]
         refuse("amplitude = [0.1]", "amplitude = [0.1, 0, 1]", "the motion of `bar` has a part along z");
         refuse("radius = 0.1, length = 1", "radius = 0.1, length = 0.2", "`bar` is not uniform along z");
         refuse("max = [0.2, 1, 1]", "max = [0.2, 1, 0.2]", "`end` selects a part of z");
-        refuse("force = [0, 2, 0]", "force = [0, 2, 1]", "the force of `end` has a part along z");
+        let free = "fixed = [true, false, false]\nforce = [0, 2, 1]";
+        refuse("fixed = [true, false, true]\nforce = [0, 2, 0]", free, "the force of `end` has a part along z");
         refuse("body_force = [1, 0, 0]", "body_force = [1, 0, -1]", "the body force has a part along z");
     }
 }
