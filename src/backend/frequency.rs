@@ -24,27 +24,29 @@ const SETTLED: f64 = 2e-3;
 /// rounding in f64.
 const SMALL: f64 = 1e-6;
 
-/// Gives the state what bounds its steps: the bodies' frequencies where they are known, the integrator's limit, and the step
-/// at rest.
+/// Gives the state what bounds its steps, unless the scene fixes them: the bodies' frequencies and the integrator's limit, where
+/// there are such, and the step at rest.
 pub fn bound<S: Space>(member: &Scene, state: &mut State<S>) {
     let method = &state.method;
-    if method.between || method.quasi_static.is_some() || !method.finite_strain() {
+    let fixed = state.params.fixed_step > S::Real::of(0.0);
+    if method.between || method.quasi_static.is_some() || !method.finite_strain() || fixed {
         return;
     }
-    if has_frequencies(method) {
+    let stable = TRUSTED * step::longest_step(method, method.integrator);
+    if has_frequencies(method) && stable > 0.0 {
         let found = match S::DIMENSION {
             1 => frequencies(&mut member.state::<Line<f64>>(false)),
             2 => frequencies(&mut member.state::<Plane<f64>>(false)),
             _ => frequencies(&mut member.state::<Solid<f64>>(false)),
         };
         state.bodies.iter_mut().zip(found).for_each(|(body, frequency)| body.frequency = S::Real::of(frequency));
-        state.params.stable = S::Real::of(TRUSTED * step::longest_step(&state.method, state.method.integrator));
+        state.params.stable = S::Real::of(stable);
     }
     state.params.rest_step = S::Real::of(at_rest(state));
 }
 
 /// Whether forces are the gradient of an energy, so that the discrete equations have frequencies.
-pub fn has_frequencies(method: &Method) -> bool {
+fn has_frequencies(method: &Method) -> bool {
     method.formulation == Formulation::TotalLagrangian
 }
 

@@ -6,14 +6,12 @@ use super::groups::Group;
 use super::packing::{MOST_POINTS, Packing, Point};
 use super::refuse::Refuse;
 use super::resolve::method;
-use super::shape::{Shape, edges};
 use super::{Particle, Scene, SceneBody};
 use crate::fields::Counts;
 use crate::memory;
 use crate::method::Method;
 use crate::rows::{ContactPair, FacetPair};
 use crate::step;
-use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
@@ -21,8 +19,6 @@ use std::sync::OnceLock;
 const FEW: f64 = 1e6;
 /// Bytes below which the tables of pairs are not looked at.
 const MUCH: f64 = 1e8;
-/// Points that find the volume of a combination of shapes: to a part in a hundred where it fills a tenth of its box.
-const POINTS: u32 = 1 << 16;
 /// Bytes that packing takes for a particle. Lists grow by doubling, so that each may be there twice.
 const PACKED: usize = 2 * (size_of::<Point>() + size_of::<Particle>());
 /// Bytes that the tables of pairs take for two bodies: coupling, contact and gap.
@@ -82,7 +78,7 @@ fn likely(file: &File, typed: &BodyTable, body: &SceneBody) -> f64 {
     if typed.shape.check(file.dimension).is_err() {
         return 0.0;
     }
-    denser(typed.packing, file.dimension) * volume(&typed.shape, file.dimension) / body.spacing.powi(file.dimension as i32)
+    denser(typed.packing, file.dimension) * typed.shape.volume(file.dimension) / body.spacing.powi(file.dimension as i32)
 }
 
 /// Particles in a cube of one spacing.
@@ -92,32 +88,6 @@ fn denser(packing: Packing, dimension: usize) -> f64 {
         (Packing::Hexagonal, 3) => 2f64.sqrt(),
         _ => 1.0,
     }
-}
-
-/// Volume (area in 2D, length in 1D) of a shape: that of a combination by the share of points of its box that are inside.
-fn volume(shape: &Shape, dimension: usize) -> f64 {
-    match shape {
-        Shape::Disc { radius, .. } => PI * radius * radius,
-        Shape::Ring { inner, outer, .. } => PI * (outer * outer - inner * inner),
-        Shape::Sphere { radius, .. } => 4.0 / 3.0 * PI * radius.powi(3),
-        Shape::Cylinder { radius, length, .. } => PI * radius * radius * length,
-        Shape::Tube { inner, outer, length, .. } => PI * (outer * outer - inner * inner) * length,
-        Shape::Polygon { points } => 0.5 * edges(points).map(|(a, b)| a.perp_dot(b)).sum::<f64>().abs(),
-        Shape::Block { .. } => boxed(shape, dimension),
-        Shape::Union { .. } | Shape::Cut { .. } | Shape::Intersection { .. } => {
-            let (min, max) = shape.bounds(dimension);
-            // Multiples of powers of the root of x^4 = x + 1 fill a cube evenly: Roberts' sequence.
-            let steps = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
-            let place = |k: u32| DVec3::from_array(steps.map(|step| (0.5 + step * f64::from(k)).fract()));
-            let inside = |k: &u32| shape.distance(min + place(*k) * (max - min), dimension) < 0.0;
-            boxed(shape, dimension) * (0..POINTS).filter(inside).count() as f64 / f64::from(POINTS)
-        }
-    }
-}
-
-fn boxed(shape: &Shape, dimension: usize) -> f64 {
-    let (min, max) = shape.bounds(dimension);
-    (0..dimension).map(|axis| (max[axis] - min[axis]).max(0.0)).product()
 }
 
 /// Bytes that the columns of a group's particle take in single precision, without those of surfaces, contacts and cells.
@@ -169,7 +139,9 @@ impl Scene {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shape::Shape;
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn the_likely_number_is_the_packed_one_within_a_few_percent() {
@@ -193,7 +165,7 @@ mod tests {
             for packing in [Packing::Square, Packing::Hexagonal] {
                 let points =
                     super::super::packing::fill(&shape, packing, 0.5, DVec3::splat(0.21), dimension).unwrap().len() as f64;
-                let estimate = denser(packing, dimension) * volume(&shape, dimension) / 0.5f64.powi(dimension as i32);
+                let estimate = denser(packing, dimension) * shape.volume(dimension) / 0.5f64.powi(dimension as i32);
                 assert!((estimate / points - 1.0).abs() < 0.03, "{text} {packing:?}: {estimate} for {points}");
             }
         }
