@@ -24,25 +24,41 @@ const SETTLED: f64 = 2e-3;
 /// rounding in f64.
 const SMALL: f64 = 1e-6;
 
-/// Gives the state what bounds its steps, unless the scene fixes them: the bodies' frequencies and the integrator's limit, where
-/// there are such, and the step at rest.
-pub fn bound<S: Space>(member: &Scene, state: &mut State<S>) {
-    let method = &state.method;
-    let fixed = state.params.fixed_step > S::Real::of(0.0);
-    if method.between || method.quasi_static.is_some() || !method.finite_strain() || fixed {
-        return;
+/// What bounds the steps of a member of a run.
+pub struct Bound {
+    /// Highest angular frequency of each body, 1/time; none where the method has no frequencies.
+    frequencies: Vec<f64>,
+    /// Step times angular frequency up to which the integrator is trusted; 0 if it has no limit.
+    stable: f64,
+}
+
+/// Finds what bounds the steps; None where they have no such bound or the scene fixes them. Its tables are gone when it returns,
+/// so that a run never holds both these and its own.
+pub fn of(member: &Scene) -> Option<Bound> {
+    let method = &member.method;
+    if method.between || method.quasi_static.is_some() || !method.finite_strain() || member.file.time.step.is_some() {
+        return None;
     }
     let stable = TRUSTED * step::longest_step(method, method.integrator);
-    if has_frequencies(method) && stable > 0.0 {
-        let found = match S::DIMENSION {
-            1 => frequencies(&mut member.state::<Line<f64>>(false)),
-            2 => frequencies(&mut member.state::<Plane<f64>>(false)),
-            _ => frequencies(&mut member.state::<Solid<f64>>(false)),
-        };
-        state.bodies.iter_mut().zip(found).for_each(|(body, frequency)| body.frequency = S::Real::of(frequency));
-        state.params.stable = S::Real::of(stable);
+    if !has_frequencies(method) || stable == 0.0 {
+        return Some(Bound { frequencies: Vec::new(), stable: 0.0 });
     }
-    state.params.rest_step = S::Real::of(at_rest(state));
+    let frequencies = match member.dimension() {
+        1 => frequencies(&mut member.state::<Line<f64>>(false)),
+        2 => frequencies(&mut member.state::<Plane<f64>>(false)),
+        _ => frequencies(&mut member.state::<Solid<f64>>(false)),
+    };
+    Some(Bound { frequencies, stable })
+}
+
+impl Bound {
+    /// Gives a state the bound, and the step at rest that follows from it.
+    pub fn give<S: Space>(&self, state: &mut State<S>) {
+        let known = state.bodies.iter_mut().zip(&self.frequencies);
+        known.for_each(|(body, &frequency)| body.frequency = S::Real::of(frequency));
+        state.params.stable = S::Real::of(self.stable);
+        state.params.rest_step = S::Real::of(at_rest(state));
+    }
 }
 
 /// Whether forces are the gradient of an energy, so that the discrete equations have frequencies.

@@ -89,8 +89,11 @@ fn machine<D: Space<Real = f64>, F: Space<Real = f32>>(
 /// The first states of all members of a run.
 fn states<S: Space>(scene: &Scene, compensated: bool) -> Vec<State<S>> {
     let state = |member: &Scene| {
+        let bound = frequency::of(member);
         let mut state = member.state::<S>(compensated);
-        frequency::bound(member, &mut state);
+        if let Some(bound) = bound {
+            bound.give(&mut state);
+        }
         state
     };
     scene.members().map(state).collect()

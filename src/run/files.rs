@@ -86,10 +86,13 @@ impl Files {
         for (k, name) in names.iter().enumerate().skip(1) {
             table.columns.insert(name.clone(), rows.iter().map(|r| r[k]).collect());
         }
-        #[cfg(feature = "hdf5")]
-        output::vtkhdf::truncate_after(&folder.join("particles.vtkhdf"), time)?;
         let interval = scene.file.frames();
-        let frames = (time / interval + 1e-9) as usize + 1;
+        let frames = if interval > 0.0 { (time / interval + 1e-9) as usize + 1 } else { 0 };
+        // A run without frames has no file of particles.
+        #[cfg(feature = "hdf5")]
+        if frames > 0 {
+            output::vtkhdf::truncate_after(&folder.join("particles.vtkhdf"), time)?;
+        }
         Ok((Self { series: Some(Series::open_append(&path)?), folder, frames, painter: painter(options)? }, table))
     }
 

@@ -256,3 +256,19 @@ fn groups_go_on_to_the_same_bits_on_a_graphics_adapter() {
         groups_go_on("resume-groups-gpu", &["--backend", "gpu"]);
     }
 }
+
+#[test]
+fn a_run_without_frames_goes_on_from_its_last_row() {
+    let sandbox = Sandbox::new("no_frames");
+    sandbox.write("s.toml", sandbox::SCENE);
+    let arguments = [&["run", "s.toml", "--backend", "cpu", "--set", "output.frames=0"][..], &LONG].concat();
+    good(&sandbox.lithosph(&[&arguments[..], &["--out", "whole"]].concat()));
+    let mut child = sandbox.command(&[&arguments[..], &["--out", "parts"]].concat()).spawn().unwrap();
+    until("there is a checkpoint", || sandbox.exists("parts/checkpoint.h5"));
+    signal(&child, libc::SIGKILL);
+    child.wait().unwrap();
+    good(&sandbox.lithosph(&["run", "--resume", "parts", "--backend", "cpu"]));
+    assert!(checkpoint(&sandbox.path("whole")) == checkpoint(&sandbox.path("parts")));
+    let series = |run: &str| std::fs::read(sandbox.path(run).join("series.csv")).unwrap();
+    assert!(series("whole") == series("parts"));
+}
