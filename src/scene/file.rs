@@ -117,13 +117,16 @@ pub struct BodyTable {
     /// More bodies of the same kind, on a grid.
     pub copies: Option<Copies>,
     pub shape: Shape,
-    #[serde(default)]
-    pub packing: Packing,
+    /// Unless given a lattice, or fitted to the shape's boundary where the body touches others: see `src/scene/surface.rs`.
+    pub packing: Option<Packing>,
     /// Particle spacing, if not the scene's.
     pub spacing: Option<f64>,
     /// A point of the lattice. Unless given the lattice is centred in the box around the shape, so that a box of whole multiples of
     /// the spacing is filled to its faces.
     pub anchor: Option<Coordinates>,
+    /// Facets of its surface to a spacing, in each direction, where it touches by a gap or an obstacle. 1 unless given; 4 in the plane
+    /// and 2 in space where something sharp is touched: a facet is met at its middle, so that an edge between two would come late.
+    pub facets: Option<u32>,
     pub material: String,
     /// Name of a `[formulation.NAME]`; the plain `[formulation]` unless given.
     pub formulation: Option<String>,
