@@ -1,7 +1,7 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .NOTPARALLEL:
-.PHONY: help demo quick test browser verify bench setup
+.PHONY: help demo quick test kill browser verify bench setup
 
 # Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -43,6 +43,15 @@ test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	    target/test-without-hdf5.log target/test.log; \
 	exit $$status
 
+kill: ## Kill small runs at every system call, fail every write, and compare what is resumed with unbroken runs
+	@.ci/setup kill
+	cargo build --release
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene line
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene solid
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane --resumed
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane --backend gpu --every 10
+
 browser: ## Make a report of each kind, small, and look at it in headless Chromium at two widths
 	@.ci/setup browser
 	cargo build --release
@@ -52,7 +61,7 @@ browser: ## Make a report of each kind, small, and look at it in headless Chromi
 	cargo run --release --quiet -- study atlas tensile_instability contact_zones --out target/browser/atlas
 	cargo run --release --quiet -- study tensile partition edge --out target/browser/tensile
 	cargo run --release --quiet -- study ablate scenes/sheared_plate.toml --out target/browser/ablate.csv
-	cargo run --release --quiet -- study cost scenes/rod_impact.toml --out target/browser/cost.csv
+	cargo run --release --quiet -- study cost scenes/rod_impact.toml --out target/browser/cost.csv --force
 	python3 tests/report_in_browser.py $$(find target/browser -name '*.html' | sort)
 
 verify: ## Run every scene, compare with what it expects, write docs/verification.txt

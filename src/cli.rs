@@ -1,9 +1,11 @@
 //! Command line: words, and the table of commands.
 
 mod say;
+mod signals;
 mod study;
 
 use crate::backend::Choice;
+use crate::complain::complain;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
 use crate::scene::file::EnergyWatch;
@@ -11,7 +13,6 @@ use crate::{check, contact, fields, material, observable, pass, run, scene, smoo
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use say::say;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 /// Solids by smoothed particle hydrodynamics, on any GPU.
 #[derive(Debug, Parser)]
@@ -175,9 +176,12 @@ struct RenderArgs {
     /// Direction from which a 3D scene is seen.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
     eye: Option<Vec<f64>>,
-    /// Folder for the pictures; `frames` beside the file unless given.
+    /// Folder for the pictures; `frames-FIELD` beside the file unless given.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Overwrite pictures.
+    #[arg(long)]
+    force: bool,
     /// Paint on the GPU even if it is a software one.
     #[arg(long)]
     gpu: bool,
@@ -192,14 +196,8 @@ pub fn main() -> i32 {
             return if error.use_stderr() { 2 } else { 0 };
         }
     };
-    // A second signal ends the process at once.
-    let handler = || {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
-    if let Err(error) = ctrlc::set_handler(handler) {
-        eprintln!("lithosph: cannot listen for interrupts: {error}");
+    if let Err(error) = signals::listen(&INTERRUPTED) {
+        complain(&format!("lithosph: cannot listen for interrupts: {error}"));
     }
     let result = match cli.command {
         Command::Run(args) => run_scene(&args),
@@ -217,7 +215,7 @@ pub fn main() -> i32 {
                 Stop::Failed(message) => (1, message),
                 Stop::Interrupted(message) => (130, message),
             };
-            eprintln!("lithosph: {message}");
+            complain(&format!("lithosph: {message}"));
             code
         }
     }
@@ -336,12 +334,23 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         None => (0..times.len()).collect(),
     };
     let beside = file.parent().unwrap_or(Path::new("."));
-    let folder = args.out.clone().unwrap_or_else(|| beside.join("frames"));
+    let field = args.field.clone().unwrap_or_else(|| "velocity.magnitude".into());
+    let folder = args.out.clone().unwrap_or_else(|| beside.join(format!("frames-{field}")));
+    let place = |k: usize| folder.join(format!("{k:05}.png"));
+    if let Some(there) = steps.iter().map(|&k| place(k)).find(|path| !args.force && path.exists()) {
+        return Err(Stop::Refused(format!(
+            "{} exists already; --force overwrites it, --out names another folder",
+            there.display()
+        )));
+    }
+    // What lies in the folder of a run is told to its manifest, so that a run that is forced takes it away too.
+    let inside = folder.strip_prefix(beside).ok().map(|inside| inside.display().to_string());
+    let mut manifest = output::manifest::Manifest::open(beside).ok().flatten().zip(inside);
     let painter = output::Painter::choose(args.gpu).map_err(refuse)?;
     let mut view = output::View {
         width: args.width,
         height: args.height,
-        field: args.field.clone().unwrap_or_else(|| "velocity.magnitude".into()),
+        field,
         range: args.range.as_ref().map(|r| [r[0], r[1]]),
         eye: args.eye.as_ref().map(|e| [e[0], e[1], e[2]]),
         caption: beside.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
@@ -355,7 +364,12 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         view.bounds = Some(output::follow(first, &snapshot));
         let picture = painter.paint(&snapshot, &view).map_err(refuse)?;
         std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
-        output::save_png(&folder.join(format!("{k:05}.png")), &picture).map_err(Stop::Failed)?;
+        let bytes = output::png(&picture).map_err(Stop::Failed)?;
+        match &mut manifest {
+            Some((manifest, inside)) => manifest.put(&format!("{inside}/{k:05}.png"), &[&bytes]),
+            None => output::durable::put(&place(k), &[&bytes]),
+        }
+        .map_err(Stop::Failed)?;
     }
     say(&format!("pictures written to {}", folder.display()));
     Ok(0)

@@ -1,5 +1,6 @@
 //! Warnings on standard error.
 
+use crate::complain::complain;
 use crate::scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -18,6 +19,6 @@ pub(super) fn say_one(warning: &str) {
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
     let thing = warning.split_once(": ").map_or(warning, |(_, thing)| thing);
     if said.insert(thing.into()) {
-        eprintln!("lithosph: warning: {warning}");
+        complain(&format!("lithosph: warning: {warning}"));
     }
 }
