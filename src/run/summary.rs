@@ -8,7 +8,7 @@ use crate::rows::Clock;
 use crate::scene::{BodyMass, Scene};
 use crate::step;
 use serde_json::json;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Measures wall and processor time from the run's first step, when the backend is open already.
 pub struct Stopwatch {
@@ -20,6 +20,11 @@ pub struct Stopwatch {
 impl Stopwatch {
     pub fn start() -> Self {
         Self { begin: Instant::now(), processor: processor_seconds() }
+    }
+
+    /// Wall time since the start.
+    pub fn elapsed(&self) -> Duration {
+        self.begin.elapsed()
     }
 }
 
