@@ -179,6 +179,14 @@ fn impossible_observables_and_expectations_are_refused_at_their_line() {
             (END, &expect("kind = \"failure\"\nvalue = 1\nseen = 2\ntolerance = 0.1\nsource = \"x\""), "[expect", &["`because`"]),
             (END, &expect("kind = \"shortfall\"\nseen = 2\ntolerance = 1\nsource = \"x\""), "[expect", &["needs the truth"]),
             (END, &expect("kind = \"pinned\"\nvalue = 2\ntolerance = 1\nsource = \"x\""), "[expect", &["no truth is at hand"]),
+            (
+                END,
+                &expect(
+                    "kind = \"failure\"\nvalue = 0\nseen = 2\ntolerance = 0.1\nrelative = true\nbecause = \"x\"\nsource = \"x\"",
+                ),
+                "[expect",
+                &["it needs a scale"],
+            ),
             (END, &expect("value = 1\nseen = 2\ntolerance = 1\nsource = \"x\""), "[expect", &["needs `kind`"]),
             (END, &expect("between = [0, 1]\ntolerance = 1\nsource = \"x\""), "[expect", &["not both"]),
             (END, &expect("value = 1\ntolerance = 1\nscale = \"mean\"\nsource = \"x\""), "[expect", &["has no curve"]),

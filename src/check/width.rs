@@ -39,11 +39,10 @@ pub fn typed_too_wide(expect: &Expect) -> Option<String> {
         return (ratio > RANGE * (1.0 + 1e-9)).then(|| format!("the range spans a factor of {ratio:.3}"));
     }
     let (seen, tolerance) = (expect.seen?, expect.tolerance?);
-    let relative = |of: f64| if expect.relative { of.abs() } else { 1.0 };
     let (allowed, whole, what) = match (expect.kind, &expect.reference, expect.value) {
-        (Statement::Pinned, ..) => (tolerance * relative(seen), OF_PINNED * seen.abs(), "a tenth of the number"),
+        (Statement::Pinned, ..) => (tolerance * expect.unit()?, OF_PINNED * seen.abs(), "a tenth of the number"),
         (_, Some(_), _) => (tolerance, OF_ERROR * seen.abs(), "half of the known error"),
-        (_, None, Some(value)) => (tolerance * relative(value), OF_ERROR * (seen - value).abs(), "half of the known error"),
+        (_, None, Some(value)) => (tolerance * expect.unit()?, OF_ERROR * (seen - value).abs(), "half of the known error"),
         (_, None, None) => return None,
     };
     (allowed > whole * (1.0 + 1e-9)).then(|| format!("the window is wider than {what}"))
@@ -52,6 +51,7 @@ pub fn typed_too_wide(expect: &Expect) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::file::Scale;
 
     fn found(error: f64, scale: f64) -> Compared {
         Compared { number: 0.0, error: Some(error), scale, of: "value".into(), unit: 1.0, unit_of_seen: 1.0 }
@@ -88,6 +88,13 @@ mod tests {
         assert_eq!(of(Statement::Pinned, None, 20.0, 2.0, false), None);
         assert_eq!(of(Statement::Pinned, None, 20.0, 0.1, true), None);
         assert!(of(Statement::Pinned, None, 20.0, 0.11, true).is_some());
+        let scaled = |tolerance| {
+            let (seen, scale) = (Some(0.01), Some(Scale::Number(0.1)));
+            let known = Expect { kind: Statement::Failure, value: Some(0.0), seen, scale, relative: true, ..Expect::default() };
+            typed_too_wide(&Expect { tolerance: Some(tolerance), ..known })
+        };
+        assert_eq!(scaled(0.05), None);
+        assert!(scaled(0.06).is_some());
     }
 
     #[test]

@@ -259,6 +259,9 @@ fn check_statement(expect: &crate::scene::file::Expect) -> Result<(), String> {
     let tolerance = match (expect.between.is_some(), expect.tolerance) {
         (false, None) => Some("needs a tolerance"),
         (true, Some(_)) => Some("takes a tolerance or the range of its source, not both"),
+        _ if !truth && expect.reference.is_none() && expect.unit().is_none() => {
+            Some("is relative to the value 0: it needs a scale")
+        }
         _ => None,
     };
     let scale = match expect.scale {

@@ -721,6 +721,18 @@ pub struct Expect {
     pub variant: Option<String>,
 }
 
+impl Expect {
+    /// What a relative tolerance is a fraction of, and 1 of one that is not; none where only the run knows.
+    pub fn unit(&self) -> Option<f64> {
+        match (self.relative, self.scale, self.value.or(self.seen)) {
+            (false, ..) => Some(1.0),
+            (true, Some(Scale::Number(scale)), _) => Some(scale),
+            (true, None, Some(value)) if self.reference.is_none() && value != 0.0 => Some(value.abs()),
+            _ => None,
+        }
+    }
+}
+
 /// What a row of the scene's expectations states.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]

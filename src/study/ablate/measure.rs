@@ -35,9 +35,7 @@ impl Expected {
         let tolerance = self.expect.tolerance.unwrap_or(0.0);
         match (self.expect.between, self.expect.seen) {
             (Some([low, high]), _) => share((number - 0.5 * (low + high)).abs(), 0.5 * (high - low)),
-            (None, Some(seen)) if !self.is_error() => {
-                share((number - seen).abs(), if self.expect.relative { tolerance * seen.abs() } else { tolerance })
-            }
+            (None, Some(seen)) if !self.is_error() => share((number - seen).abs(), tolerance * self.expect.unit().unwrap_or(1.0)),
             (None, Some(seen)) => share(number.abs(), self.known_error(seen) + tolerance),
             (None, None) => share(number.abs(), tolerance),
         }
@@ -45,11 +43,7 @@ impl Expected {
 
     /// The error of what is seen, in the unit of the tolerance.
     fn known_error(&self, seen: f64) -> f64 {
-        match self.expect.value {
-            Some(value) if self.expect.relative => ((seen - value) / value).abs(),
-            Some(value) => (seen - value).abs(),
-            None => seen.abs(),
-        }
+        self.expect.value.map_or(seen.abs(), |value| (seen - value).abs() / self.expect.unit().unwrap_or(1.0))
     }
 
     /// The same expectation with its error as a fraction, where it has a scale of its own.
