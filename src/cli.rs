@@ -1,5 +1,6 @@
 //! Command line: words, and the table of commands.
 
+mod check;
 mod say;
 mod signals;
 mod study;
@@ -9,7 +10,7 @@ use crate::complain::complain;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
 use crate::scene::file::EnergyWatch;
-use crate::{check, contact, fields, material, observable, pass, run, scene, smoothing};
+use crate::{contact, fields, material, observable, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use say::say;
 use std::path::{Path, PathBuf};
@@ -27,7 +28,7 @@ enum Command {
     /// Run a scene and write series, particles and pictures.
     Run(RunArgs),
     /// Run scenes and compare them with what they expect; exit code 0 only if all holds.
-    Check(CheckArgs),
+    Check(check::Arguments),
     /// Paint stored particle states.
     Render(RenderArgs),
     /// List kernels, laws, passes, fields, observables; or the variants of a scene.
@@ -141,22 +142,6 @@ struct RunArgs {
 }
 
 #[derive(Debug, Args)]
-struct CheckArgs {
-    #[arg(required = true)]
-    scenes: Vec<PathBuf>,
-    /// Only this variant (`none`: the scene as it is); all, and the scene as it is, unless given.
-    #[arg(long)]
-    variant: Option<String>,
-    #[arg(long, value_name = "PATH=VALUE")]
-    set: Vec<String>,
-    /// Only scenes marked `ci = true`.
-    #[arg(long)]
-    ci: bool,
-    #[command(flatten)]
-    place: Where,
-}
-
-#[derive(Debug, Args)]
 struct RenderArgs {
     /// A particles.vtkhdf, or the folder that holds one.
     file: PathBuf,
@@ -201,7 +186,7 @@ pub fn main() -> i32 {
     }
     let result = match cli.command {
         Command::Run(args) => run_scene(&args),
-        Command::Check(args) => check_scenes(&args),
+        Command::Check(args) => check::check(&args),
         Command::Render(args) => render(&args),
         Command::List { scene } => list(scene.as_deref()),
         Command::Devices => devices(),
@@ -231,6 +216,7 @@ fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
         force: args.force,
         quiet: args.place.quiet,
         energy: args.energy.map(EnergyWord::watch),
+        ..Options::default()
     };
     let finished = match (&args.resume, &args.scene) {
         (Some(folder), _) => {
@@ -271,49 +257,6 @@ fn tell(finished: &Finished) {
     if let Some(folder) = &finished.folder {
         say(&format!("written to {}", folder.display()));
     }
-}
-
-fn check_scenes(args: &CheckArgs) -> Result<i32, Stop> {
-    args.place.set_threads()?;
-    let mut all = Vec::new();
-    for path in &args.scenes {
-        all.extend(check_scene(path, args)?);
-    }
-    let missed = all.iter().filter(|row| row.verdict == check::Verdict::Miss).count();
-    say(&format!("{}{} expectations, {missed} missed", check::text(&all), all.len()));
-    Ok(i32::from(missed > 0))
-}
-
-fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
-    // A slip in the last variant should not show only after the others have run.
-    scene::read::read(path, None, &[]).and_then(|read| read.check_variants()).map_err(Stop::Refused)?;
-    let variants: Vec<Option<String>> = match &args.variant {
-        Some(word) if word == "none" => vec![None],
-        Some(word) => vec![Some(word.clone())],
-        None => std::iter::once(None).chain(scene::read::variants(path).map_err(Stop::Refused)?.into_iter().map(Some)).collect(),
-    };
-    let mut rows = Vec::new();
-    for variant in variants {
-        let scene = Scene::open(path, variant.as_deref(), &args.set).map_err(Stop::Refused)?;
-        if (args.ci && !scene.file.ci) || !expects_something(&scene) {
-            continue;
-        }
-        let options = Options { choice: args.place.choice()?, dry: true, quiet: args.place.quiet, ..Options::default() };
-        let folder = path.parent().unwrap_or(Path::new("."));
-        check::references(&scene, folder).map_err(Stop::Refused)?;
-        match run::run(&scene, &options) {
-            Ok(finished) => rows.extend(check::rows(&scene, &finished, folder).map_err(Stop::Refused)?),
-            // The table shall not be lost for one run of many.
-            Err(Stop::Failed(reason)) => rows.push(check::failed(&scene, reason)),
-            Err(stop) => return Err(stop),
-        }
-    }
-    Ok(rows)
-}
-
-/// A run that nothing is expected of would only cost time.
-fn expects_something(scene: &Scene) -> bool {
-    scene.file.expect.values().any(|expect| check::applies(scene, expect))
 }
 
 #[cfg(feature = "hdf5")]

@@ -30,6 +30,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// What the command line asks of a run.
 #[derive(Debug, Clone, Default)]
@@ -42,6 +43,8 @@ pub struct Options {
     pub quiet: bool,
     /// What happens when the energy drifts, in place of the scene's `watch.energy`.
     pub energy: Option<EnergyWatch>,
+    /// Wall time after which the run is given up as if interrupted.
+    pub within: Option<Duration>,
 }
 
 impl Options {
@@ -210,6 +213,7 @@ struct Run<'a> {
     /// As a checkpoint at the end tells it.
     neighbors: Option<f64>,
     energy: Watch,
+    within: Option<Duration>,
     balance: Balance,
     /// What the run has said beside the results: first what the scene gave reason for.
     warnings: Vec<String>,
@@ -250,6 +254,7 @@ impl<'a> Run<'a> {
             stopwatch: Stopwatch::start(),
             neighbors: None,
             energy: Watch::new(scene, options.energy),
+            within: options.within,
             balance: Balance::default(),
             warnings: scene.warnings.clone(),
         }
@@ -300,6 +305,10 @@ impl<'a> Run<'a> {
             }
             if INTERRUPTED.load(Ordering::Relaxed) {
                 return Err(Stop::Interrupted(format!("interrupted at t = {now:.6e}, step {}{}", self.steps, self.advice())));
+            }
+            if let Some(within) = self.within.filter(|&within| self.stopwatch.elapsed() > within) {
+                let (limit, end) = (within.as_secs_f64(), self.scene.file.duration);
+                return Err(Stop::Interrupted(format!("not finished in {limit:.0} s: t = {now:.3e} of {end:.3e}")));
             }
             if clock.running == 0 {
                 return Ok(clock.elapsed);

@@ -7,7 +7,7 @@ use crate::rows::Clock;
 use crate::scene::{BodyMass, Scene};
 use crate::step;
 use serde_json::json;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Measures wall and processor time from the run's first step, when the backend is open already.
 pub struct Stopwatch {
@@ -31,6 +31,11 @@ impl Stopwatch {
     /// Seconds of wall and of processor time.
     pub fn spent(&self) -> [f64; 2] {
         [self.before[0] + self.begin.elapsed().as_secs_f64(), self.before[1] + processor_seconds() - self.processor]
+    }
+
+    /// Wall time since the start.
+    pub fn elapsed(&self) -> Duration {
+        self.begin.elapsed()
     }
 }
 
