@@ -7,6 +7,7 @@ use hdf5::{File, Group};
 use hdf5_sys::h5f::{H5Fget_file_image, H5Fget_vfd_handle};
 use hdf5_sys::h5p::H5P_DEFAULT;
 use std::ffi::c_void;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Bytes by which the memory of a file grows.
 const INCREMENT: usize = 1 << 20;
@@ -17,8 +18,9 @@ pub fn make<T>(build: impl FnOnce(&File) -> hdf5::Result<()>, take: impl FnOnce(
     options.with_fapl(|access| access.core_options(INCREMENT, false).libver_v18());
     // The same numbers give the same bytes, whenever they are written.
     options.with_fcpl(|create| create.obj_track_times(false));
-    // The name is for HDF5's own table of open files; no file of this name is looked for or made.
-    let file = options.create("in memory")?;
+    // The name is for HDF5's own table of open files, in which it stands once; no file of this name is looked for or made.
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let file = options.create(format!("in memory {}", NUMBER.fetch_add(1, Ordering::Relaxed)))?;
     build(&file)?;
     file.flush()?;
     let taken = take(bytes(&file)?);

@@ -125,7 +125,7 @@ pub struct BodyTable {
     /// the spacing is filled to its faces.
     pub anchor: Option<Coordinates>,
     /// Facets of its surface to a spacing, in each direction, where it touches by a gap or an obstacle. 1 unless given; 4 in the plane
-    /// and 2 in space where something sharp is touched: a facet is met at its middle, so that an edge between two would come late.
+    /// where a wedge is an obstacle: a facet is met at its middle, so that an edge between two would come late.
     pub facets: Option<u32>,
     pub material: String,
     /// Name of a `[formulation.NAME]`; the plain `[formulation]` unless given.

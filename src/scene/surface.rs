@@ -1,7 +1,7 @@
 //! How the surface of a body lies that touches others: packed to its shape unless the scene says otherwise, and what is said of
 //! one whose particles stand in steps.
 
-use super::copies::{named, pairs};
+use super::copies::named;
 use super::facets::facets;
 use super::file::{BodyTable, ContactTable, File, ObstacleShape, ObstacleTable};
 use super::packing::Packing;
@@ -72,33 +72,17 @@ pub(super) const MOST_PIECES: u32 = 8;
 
 /// Facets to a spacing, in each direction, of each body's surface.
 pub(super) fn pieces(file: &File, bodies: &[SceneBody]) -> Vec<u32> {
-    let mut sharp = edged_obstacles(file, bodies);
-    let polygon = |body: usize| matches!(file.body[body].shape, Shape::Polygon { .. });
-    for contact in file.contact.iter().filter(|contact| contact.gap.is_some()) {
-        for (a, b) in pairs(bodies, &contact.between).into_iter().filter(|&(a, b)| polygon(a) || polygon(b)) {
-            (sharp[a], sharp[b]) = (true, true);
-        }
-    }
-    let usual = |sharp: bool| match (sharp, file.dimension) {
-        (true, 2) => 4,
-        (true, 3) => 2,
-        _ => 1,
+    let wedges = |typed: &&ObstacleTable| file.dimension == 2 && matches!(typed.shape, ObstacleShape::Cone { .. });
+    let meets = |typed: &ObstacleTable, body: &SceneBody| {
+        typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group))
     };
-    file.body.iter().zip(sharp).map(|(typed, sharp)| typed.facets.unwrap_or_else(|| usual(sharp))).collect()
+    let usual = |body: &SceneBody| if file.obstacle.iter().filter(wedges).any(|typed| meets(typed, body)) { 4 } else { 1 };
+    file.body.iter().zip(bodies).map(|(typed, body)| typed.facets.unwrap_or_else(|| usual(body))).collect()
 }
 
 /// Facets on a square spacing of a surface, in the plane on a spacing.
 pub(super) fn to_a_cell(pieces: u32, dimension: usize) -> f64 {
     f64::from(pieces).powi(dimension as i32 - 1)
-}
-
-/// Which bodies a wedge, a cone or a pyramid may press.
-fn edged_obstacles(file: &File, bodies: &[SceneBody]) -> Vec<bool> {
-    let edged = |typed: &&ObstacleTable| matches!(typed.shape, ObstacleShape::Cone { .. } | ObstacleShape::Berkovich { .. });
-    let meets = |typed: &ObstacleTable, body: &SceneBody| {
-        typed.against.as_ref().is_none_or(|list| list.iter().any(|word| *word == body.name || *word == body.group))
-    };
-    bodies.iter().map(|body| file.obstacle.iter().filter(edged).any(|typed| meets(typed, body))).collect()
 }
 
 /// Bodies whose particles touch others while they stand in steps where the surface should be, each with its index.

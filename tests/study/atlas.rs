@@ -29,6 +29,7 @@ rows! {
     zero_energy_modes,
     numerical_fracture,
     adhesive_contact,
+    contact_of_steps,
     contact_zones,
     contact_along_normals,
     rotation_lost_to_xsph,

@@ -22,6 +22,21 @@ pub static ADHESION: Row = Row {
     small: &[],
 };
 
+pub static STEPS: Row = Row {
+    name: "contact_of_steps",
+    failure: "A disc strikes one of a fifth of its mass, particle against particle. On a lattice the disc's outermost rows are flat and \
+              meet all at once: a seventh of the rebound is lost, at any spacing; equal masses hide it. Fitted to the disc, surfaces \
+              meet where they are.",
+    source: "2D finite elements of the two discs at 0.01 c: 0.936",
+    plain: Side::new("square lattice", BALLS).variant("steps_02"),
+    remedy: Side::new("fitted to the disc", BALLS).variant("fitted_02"),
+    measure: Measure { about: "coefficient of restitution", of: |run| run.result("restitution") },
+    fails: Bound::Below(0.85),
+    survives: Bound::Above(0.92),
+    trace: Some(Trace { series: "speed_b", about: "speed of the struck disc", log: false }),
+    small: &[],
+};
+
 const DISCS: Text = text!("src/study/atlas/rows/discs.toml");
 
 pub static ZONES: Row = Row {

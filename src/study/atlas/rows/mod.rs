@@ -24,6 +24,7 @@ pub static ROWS: &[&Row] = &[
     &compression::HOURGLASS,
     &fracture::RINGS,
     &contact::ADHESION,
+    &contact::STEPS,
     &contact::ZONES,
     &contact::NORMALS,
     &rotation::FILTER,
