@@ -78,16 +78,21 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
     if !options.dry {
         files::refuse_existing(scene, options).map_err(Stop::Refused)?;
     }
+    let warnings = warn::of(scene);
     // The backend is opened before the folder is made, so that a run without a backend leaves no folder behind.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
-    run_on(scene, options, backend)
+    begin(scene, options, backend, warnings)
 }
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
-    warn::say(scene);
+    begin(scene, options, backend, scene.warnings.clone())
+}
+
+fn begin(scene: &Scene, options: &Options, backend: Box<dyn Backend>, warnings: Vec<String>) -> Result<Finished, Stop> {
+    warn::say(&warnings);
     let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
-    Run::new(scene, options, backend, files).go()
+    Run::new(scene, options, backend, files, warnings).go()
 }
 
 /// Goes on from the checkpoint in a run's folder, to the same bits as a run that was never broken off;
@@ -100,13 +105,14 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     }
     // The folder's `run.toml` has lost them.
     let scene = &Scene { name: saved.name.clone(), variant: saved.variant.clone(), ..scene.clone() };
+    let warnings = warn::of(scene);
     let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&saved.groups).map_err(Stop::Refused)?;
     backend.set_steps_done(saved.steps);
-    warn::say(scene);
+    warn::say(&warnings);
     let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
-    let mut run = Run::new(scene, options, backend, Some(files));
+    let mut run = Run::new(scene, options, backend, Some(files), warnings);
     (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
     run.energy.load(&saved.watch);
     run.go().map(Some)
@@ -201,7 +207,7 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
+    fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>, warnings: Vec<String>) -> Self {
         let observers = observers(scene);
         let mut fields = fields_read(&observers, scene);
         if (Meetings::possible(scene) || meetings::may_cross(scene)) && !fields.contains(&Field::Displacement) {
@@ -235,7 +241,7 @@ impl<'a> Run<'a> {
             stopwatch: Stopwatch::start(),
             energy: Watch::new(scene, options.energy),
             balance: Balance::default(),
-            warnings: scene.warnings.clone(),
+            warnings,
         }
     }
 
