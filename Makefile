@@ -1,7 +1,7 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .NOTPARALLEL:
-.PHONY: help demo quick test browser verify bench setup
+.PHONY: help demo quick test kill browser verify bench setup
 
 # Mesa complains where there is no desktop; tests that need an adapter must not pass without one.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -43,6 +43,15 @@ test: ## Format, lints, all tests, and VTK's reader on what a run wrote
 	    target/test-without-hdf5.log target/test.log; \
 	exit $$status
 
+kill: ## Kill small runs at every system call, fail every write, and compare what is resumed with unbroken runs
+	@.ci/setup kill
+	cargo build --release
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene line
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene solid
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane --resumed
+	python3 tests/killed_at_every_call.py target/release/lithosph --scene plane --backend gpu --every 10
+
 browser: ## Make a report of each kind, small, and look at it in headless Chromium at two widths
 	@.ci/setup browser
 	cargo build --release
@@ -52,17 +61,22 @@ browser: ## Make a report of each kind, small, and look at it in headless Chromi
 	cargo run --release --quiet -- study atlas tensile_instability contact_zones --out target/browser/atlas
 	cargo run --release --quiet -- study tensile partition edge --out target/browser/tensile
 	cargo run --release --quiet -- study ablate scenes/sheared_plate.toml --out target/browser/ablate.csv
-	cargo run --release --quiet -- study cost scenes/rod_impact.toml --out target/browser/cost.csv
+	cargo run --release --quiet -- study cost scenes/rod_impact.toml --out target/browser/cost.csv --force
 	python3 tests/report_in_browser.py $$(find target/browser -name '*.html' | sort)
 
-verify: ## Run every scene, compare with what it expects, write docs/verification.txt
+# Seconds after which a slow variant is given up and stands in the table as not run.
+WITHIN ?= 7200
+verify: ## Run every scene and variant, write docs/verification.txt; goes on where it was stopped. SLOW=no: only what takes seconds
 	@.ci/setup build
 	cargo build --release
-	@mkdir -p docs; status=0; \
-	cargo run --release --quiet -- check scenes/*.toml >docs/verification.txt.part || status=$$?; \
-	cat docs/verification.txt.part; \
-	if [ $$status -le 1 ]; then mv docs/verification.txt.part docs/verification.txt; else rm docs/verification.txt.part; fi; \
-	exit $$status
+	@mkdir -p docs target; status=0; \
+	cargo run --release --quiet -- check scenes/*.toml --backend cpu --quiet --within $(WITHIN) --record target/verify.jsonl \
+	    $(if $(filter no,$(SLOW)),--ci) >target/verification.txt || status=$$?; \
+	[ $$status -le 1 ] || exit $$status; \
+	{ echo "$$(date -u +%F), commit $$(git describe --always --dirty), CPU path in f64. * marks what takes longer than seconds;"; \
+	  echo "CONTRIBUTING.md says what pass, failure, shortfall and pinned mean."; echo; cat target/verification.txt; } \
+	    >docs/verification.txt.part; \
+	mv docs/verification.txt.part docs/verification.txt; cat docs/verification.txt; exit $$status
 
 bench: ## Time each pass of a step on this machine
 	@.ci/setup build

@@ -1,17 +1,19 @@
 //! Command line: words, and the table of commands.
 
+mod check;
 mod say;
+mod signals;
 mod study;
 
 use crate::backend::Choice;
+use crate::complain::complain;
 use crate::run::{Finished, INTERRUPTED, Options, Stop};
 use crate::scene::Scene;
 use crate::scene::file::EnergyWatch;
-use crate::{check, contact, fields, material, observable, pass, run, scene, smoothing};
+use crate::{contact, fields, material, observable, pass, run, scene, smoothing};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use say::say;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 /// Solids by smoothed particle hydrodynamics, on any GPU.
 #[derive(Debug, Parser)]
@@ -26,7 +28,7 @@ enum Command {
     /// Run a scene and write series, particles and pictures.
     Run(RunArgs),
     /// Run scenes and compare them with what they expect; exit code 0 only if all holds.
-    Check(CheckArgs),
+    Check(check::Arguments),
     /// Paint stored particle states.
     Render(RenderArgs),
     /// List kernels, laws, passes, fields, observables; or the variants of a scene.
@@ -140,22 +142,6 @@ struct RunArgs {
 }
 
 #[derive(Debug, Args)]
-struct CheckArgs {
-    #[arg(required = true)]
-    scenes: Vec<PathBuf>,
-    /// Only this variant (`none`: the scene as it is); all, and the scene as it is, unless given.
-    #[arg(long)]
-    variant: Option<String>,
-    #[arg(long, value_name = "PATH=VALUE")]
-    set: Vec<String>,
-    /// Only scenes marked `ci = true`.
-    #[arg(long)]
-    ci: bool,
-    #[command(flatten)]
-    place: Where,
-}
-
-#[derive(Debug, Args)]
 struct RenderArgs {
     /// A particles.vtkhdf, or the folder that holds one.
     file: PathBuf,
@@ -175,9 +161,12 @@ struct RenderArgs {
     /// Direction from which a 3D scene is seen.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
     eye: Option<Vec<f64>>,
-    /// Folder for the pictures; `frames` beside the file unless given.
+    /// Folder for the pictures; `frames-FIELD` beside the file unless given.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Overwrite pictures.
+    #[arg(long)]
+    force: bool,
     /// Paint on the GPU even if it is a software one.
     #[arg(long)]
     gpu: bool,
@@ -192,18 +181,12 @@ pub fn main() -> i32 {
             return if error.use_stderr() { 2 } else { 0 };
         }
     };
-    // A second signal ends the process at once.
-    let handler = || {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
-    if let Err(error) = ctrlc::set_handler(handler) {
-        eprintln!("lithosph: cannot listen for interrupts: {error}");
+    if let Err(error) = signals::listen(&INTERRUPTED) {
+        complain(&format!("lithosph: cannot listen for interrupts: {error}"));
     }
     let result = match cli.command {
         Command::Run(args) => run_scene(&args),
-        Command::Check(args) => check_scenes(&args),
+        Command::Check(args) => check::check(&args),
         Command::Render(args) => render(&args),
         Command::List { scene } => list(scene.as_deref()),
         Command::Devices => devices(),
@@ -217,7 +200,7 @@ pub fn main() -> i32 {
                 Stop::Failed(message) => (1, message),
                 Stop::Interrupted(message) => (130, message),
             };
-            eprintln!("lithosph: {message}");
+            complain(&format!("lithosph: {message}"));
             code
         }
     }
@@ -233,6 +216,7 @@ fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
         force: args.force,
         quiet: args.place.quiet,
         energy: args.energy.map(EnergyWord::watch),
+        ..Options::default()
     };
     let finished = match (&args.resume, &args.scene) {
         (Some(folder), _) => {
@@ -275,49 +259,6 @@ fn tell(finished: &Finished) {
     }
 }
 
-fn check_scenes(args: &CheckArgs) -> Result<i32, Stop> {
-    args.place.set_threads()?;
-    let mut all = Vec::new();
-    for path in &args.scenes {
-        all.extend(check_scene(path, args)?);
-    }
-    let missed = all.iter().filter(|row| row.verdict == check::Verdict::Miss).count();
-    say(&format!("{}{} expectations, {missed} missed", check::text(&all), all.len()));
-    Ok(i32::from(missed > 0))
-}
-
-fn check_scene(path: &Path, args: &CheckArgs) -> Result<Vec<check::Row>, Stop> {
-    // A slip in the last variant should not show only after the others have run.
-    scene::read::read(path, None, &[]).and_then(|read| read.check_variants()).map_err(Stop::Refused)?;
-    let variants: Vec<Option<String>> = match &args.variant {
-        Some(word) if word == "none" => vec![None],
-        Some(word) => vec![Some(word.clone())],
-        None => std::iter::once(None).chain(scene::read::variants(path).map_err(Stop::Refused)?.into_iter().map(Some)).collect(),
-    };
-    let mut rows = Vec::new();
-    for variant in variants {
-        let scene = Scene::open(path, variant.as_deref(), &args.set).map_err(Stop::Refused)?;
-        if (args.ci && !scene.file.ci) || !expects_something(&scene) {
-            continue;
-        }
-        let options = Options { choice: args.place.choice()?, dry: true, quiet: args.place.quiet, ..Options::default() };
-        let folder = path.parent().unwrap_or(Path::new("."));
-        check::references(&scene, folder).map_err(Stop::Refused)?;
-        match run::run(&scene, &options) {
-            Ok(finished) => rows.extend(check::rows(&scene, &finished, folder).map_err(Stop::Refused)?),
-            // The table shall not be lost for one run of many.
-            Err(Stop::Failed(reason)) => rows.push(check::failed(&scene, reason)),
-            Err(stop) => return Err(stop),
-        }
-    }
-    Ok(rows)
-}
-
-/// A run that nothing is expected of would only cost time.
-fn expects_something(scene: &Scene) -> bool {
-    scene.file.expect.values().any(|expect| check::applies(scene, expect))
-}
-
 #[cfg(feature = "hdf5")]
 fn render(args: &RenderArgs) -> Result<i32, Stop> {
     use crate::output;
@@ -336,12 +277,23 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         None => (0..times.len()).collect(),
     };
     let beside = file.parent().unwrap_or(Path::new("."));
-    let folder = args.out.clone().unwrap_or_else(|| beside.join("frames"));
+    let field = args.field.clone().unwrap_or_else(|| "velocity.magnitude".into());
+    let folder = args.out.clone().unwrap_or_else(|| beside.join(format!("frames-{field}")));
+    let place = |k: usize| folder.join(format!("{k:05}.png"));
+    if let Some(there) = steps.iter().map(|&k| place(k)).find(|path| !args.force && path.exists()) {
+        return Err(Stop::Refused(format!(
+            "{} exists already; --force overwrites it, --out names another folder",
+            there.display()
+        )));
+    }
+    // What lies in the folder of a run is told to its manifest, so that a run that is forced takes it away too.
+    let inside = folder.strip_prefix(beside).ok().map(|inside| inside.display().to_string());
+    let mut manifest = output::manifest::Manifest::open(beside).ok().flatten().zip(inside);
     let painter = output::Painter::choose(args.gpu).map_err(refuse)?;
     let mut view = output::View {
         width: args.width,
         height: args.height,
-        field: args.field.clone().unwrap_or_else(|| "velocity.magnitude".into()),
+        field,
         range: args.range.as_ref().map(|r| [r[0], r[1]]),
         eye: args.eye.as_ref().map(|e| [e[0], e[1], e[2]]),
         caption: beside.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
@@ -355,7 +307,12 @@ fn render(args: &RenderArgs) -> Result<i32, Stop> {
         view.bounds = Some(output::follow(first, &snapshot));
         let picture = painter.paint(&snapshot, &view).map_err(refuse)?;
         std::fs::create_dir_all(&folder).map_err(|e| Stop::Refused(format!("cannot write {}: {e}", folder.display())))?;
-        output::save_png(&folder.join(format!("{k:05}.png")), &picture).map_err(Stop::Failed)?;
+        let bytes = output::png(&picture).map_err(Stop::Failed)?;
+        match &mut manifest {
+            Some((manifest, inside)) => manifest.put(&format!("{inside}/{k:05}.png"), &[&bytes]),
+            None => output::durable::put(&place(k), &[&bytes]),
+        }
+        .map_err(Stop::Failed)?;
     }
     say(&format!("pictures written to {}", folder.display()));
     Ok(0)

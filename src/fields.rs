@@ -270,6 +270,7 @@ fields! {
     colour_excess: ColourExcess, Particle, Real, NONE, false, "by how much the colour of the bodies touched exceeds its threshold";
     surface: Surface, Particle, Integer, NONE, true, "1 on the surface of the particle's body, 2 at a corner, else 0";
     surface_normal: SurfaceNormal, Particle, Vec, NONE, true, "outward unit normal of a surface particle";
+    contact_rate: ContactRate, Particle, Real, [0, 0, -2], true, "square of the highest frequency that potentials to other bodies may give the particle";
     contact_energy: ContactEnergy, Particle, Real, [2, 1, -2], false, "the particle's part of the energy of its contacts";
     first_facet: FirstFacet, Particle, Integer, NONE, true, "index of the first piece of surface that the particle carries";
     facets: Facets, Particle, Integer, NONE, true, "number of the pieces of surface that the particle carries";

@@ -40,6 +40,7 @@ pub mod backend;
 pub mod bond;
 pub mod check;
 pub mod cli;
+mod complain;
 pub mod contact;
 pub mod facet;
 pub mod fields;

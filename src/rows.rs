@@ -299,6 +299,26 @@ pub struct Clock<R> {
 }
 
 impl<R: Real> Clock<R> {
+    pub fn of(clock: &Clock<f64>) -> Self {
+        Self {
+            start: R::of(clock.start),
+            elapsed: R::of(clock.elapsed),
+            elapsed_carry: R::of(clock.elapsed_carry),
+            step: R::of(clock.step),
+            duration: R::of(clock.duration),
+            steps_left: clock.steps_left,
+            steps_done: clock.steps_done,
+            running: clock.running,
+            rebuild: clock.rebuild,
+            lists_built: clock.lists_built,
+            changes: clock.changes,
+            held: R::of(clock.held),
+            arrived: clock.arrived,
+            fault: clock.fault,
+            residual: R::of(clock.residual),
+        }
+    }
+
     pub fn to_f64(self) -> Clock<f64> {
         Clock {
             start: self.start.f64(),

@@ -1,8 +1,9 @@
-// phi = -(1 - q)^2 ln q and -phi'. Twin: src/contact/barrier.rs
+// phi = -(1 - q)^2 ln q, -phi' and phi''. Twin: src/contact/barrier.rs
 #import real
 
-fn potential_barrier(q: real, exponent: u32) -> vec2<real> {
+fn potential_barrier(q: real, exponent: u32) -> vec3<real> {
     let left = 1.0 - q;
     let logarithm = log(q);
-    return vec2<real>(-left * left * logarithm, left * (left / q - 2.0 * logarithm));
+    let part = left / q;
+    return vec3<real>(-left * left * logarithm, left * (part - 2.0 * logarithm), part * (4.0 + part) - 2.0 * logarithm);
 }

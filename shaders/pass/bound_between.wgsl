@@ -13,6 +13,9 @@
 @group(0) @binding(_) var<storage, read> listed_displacement: array<Vec>;
 #endif
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
+#if potentials
+@group(0) @binding(_) var<storage, read> contact_rate: array<real>;
+#endif
 
 @compute @workgroup_size(256)
 fn blocks(invocation: Invocation) {
@@ -28,7 +31,7 @@ fn blocks(invocation: Invocation) {
     }
 }
 
-// Squared displacement since the list was built, and squared speed, where they stand in the bound of a group.
+// Squared rate of the contacts between groups, squared displacement since the list was built, and squared speed, where they stand in the bound of a group.
 fn motion_of(a: u32) -> vec4<real> {
 #if listed_again
     let shift = displacement[a] - listed_displacement[a];
@@ -36,7 +39,12 @@ fn motion_of(a: u32) -> vec4<real> {
 #else
     let moved: real = 0.0;
 #endif
-    return vec4<real>(0.0, moved, inner(velocity[a], velocity[a]), 0.0);
+#if potentials
+    let rate = contact_rate[a];
+#else
+    let rate: real = 0.0;
+#endif
+    return vec4<real>(rate, moved, inner(velocity[a], velocity[a]), 0.0);
 }
 
 @compute @workgroup_size(256)
@@ -67,6 +75,9 @@ fn agree(motion: vec4<real>) {
     if clock.fault != 0u {
         agreed.fault = clock.fault;
         agreed.running = 0u;
+    }
+    if motion.x > 0.0 && params.fixed_step == 0.0 {
+        agreed.step = min(agreed.step, params.cfl / sqrt(motion.x));
     }
 #if listed_again
     let ahead = sqrt(motion.y) + sqrt(motion.z) * agreed.step;

@@ -16,6 +16,9 @@
 #endif
 @group(0) @binding(_) var<storage, read> velocity: array<Vec>;
 @group(0) @binding(_) var<storage, read> acceleration: array<Vec>;
+#if potentials
+@group(0) @binding(_) var<storage, read> contact_rate: array<real>;
+#endif
 #if finite_strain
 @group(0) @binding(_) var<storage, read> displacement_gradient: array<Mat>;
 #else
@@ -58,6 +61,9 @@ fn bound_of(a: u32) -> vec4<real> {
     var rate = max(waves, sqrt(sqrt(pull) / h));
 #if facets
     rate = sqrt(rate * rate + params.contact_rate);
+#endif
+#if potentials
+    rate = sqrt(rate * rate + contact_rate[a]);
 #endif
 #if listed_again
     let shift = displacement[a] - listed_displacement[a];

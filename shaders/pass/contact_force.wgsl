@@ -3,6 +3,7 @@
 // m_a a_a -= sum k V_a V_b (<c_a - c0> + <c_b - c0>) grad_a W_ab, (k/2) V_a <c_a - c0>^2. Twin: src/pass/contact_force.rs
 #import separation
 #import mass
+#import body
 #import contact_pair
 #import potential if potentials
 #import kernel if colour_field
@@ -16,6 +17,10 @@
 #if colour_field
 @group(0) @binding(_) var<storage, read> colour_excess: array<real>;
 #endif
+#if potentials
+@group(0) @binding(_) var<storage, read> velocity: array<Vec>;
+@group(0) @binding(_) var<storage, read_write> contact_rate: array<real>;
+#endif
 @group(0) @binding(_) var<storage, read_write> contact_energy: array<real>;
 @group(0) @binding(_) var<storage, read_write> acceleration: array<Vec>;
 
@@ -24,11 +29,29 @@ fn of_particle(a: u32) {
     var energy: real = 0.0;
     var force = Vec();
     var stiffness: real = 0.0;
+#if potentials
+    var rate: real = 0.0;
+    // After an output the next step may be as long as that of the unstressed body.
+    let ahead = max(clock.step, params.cfl * smoothing_length(a) / body_of(a).sound_speed);
+    // What the body's own forces add to the speed. Those on the other particle are taken to be alike.
+    let gained = ahead * sqrt(inner(acceleration[a], acceleration[a]));
+#endif
     for (var k = 0u; k < listed; k++) {
         let b = contacts[k * params.count + a];
         let pair = contact_pair(a, b);
         let x = separation(reference_position[a], displacement[a], b, displacement[b]);
         let distance = sqrt(inner(x, x));
+#if potentials
+        if pair.law < COLOUR_FIELD {
+            // Particles that part may come back within a step: surfaces tremble.
+            let relative = velocity[a] - velocity[b];
+            let q = max(distance - ahead * (sqrt(inner(relative, relative)) + gained), 0.5 * distance) / pair.range;
+            if q < 1.0 {
+                let later = potential(pair, q);
+                rate += pair.strength * max(abs(later.z), later.y / q) / (pair.range * pair.range);
+            }
+        }
+#endif
         if distance >= pair.range {
             continue;
         }
@@ -52,6 +75,9 @@ fn of_particle(a: u32) {
     energy += 0.5 * stiffness * reference_volume[a] * colour_excess[a] * colour_excess[a];
 #endif
     contact_energy[a] = energy;
+#if potentials
+    contact_rate[a] = 2.0 * rate / mass(a);
+#endif
     if listed > 0u {
         acceleration[a] += force * (1.0 / mass(a));
     }

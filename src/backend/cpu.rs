@@ -194,8 +194,13 @@ impl<S: Space> Backend for Cpu<S> {
         Ok(())
     }
 
-    fn set_steps_done(&mut self, steps: u32) {
-        self.members.iter_mut().for_each(|state| state.clock.steps_done = steps);
+    fn clocks(&mut self) -> Result<Vec<Clock<f64>>, String> {
+        Ok(self.members.iter().map(|state| state.clock.to_f64()).collect())
+    }
+
+    fn set_clocks(&mut self, clocks: &[Clock<f64>]) -> Result<(), String> {
+        self.members.iter_mut().zip(clocks).for_each(|(state, clock)| state.clock = Clock::of(clock));
+        Ok(())
     }
 
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {

@@ -59,8 +59,10 @@ pub trait Backend {
     /// Each group's carried fields as raw bytes in their present order, for a checkpoint that resumes bit for bit.
     fn save(&mut self) -> Result<Vec<Saved>, String>;
     fn load(&mut self, groups: &[Saved]) -> Result<(), String>;
-    /// Sets the count of steps, when a run resumes.
-    fn set_steps_done(&mut self, steps: u32);
+    /// The clocks of all members, for a checkpoint.
+    fn clocks(&mut self) -> Result<Vec<Clock<f64>>, String>;
+    /// Sets what the clocks have counted and the step that they hold, when a run resumes.
+    fn set_clocks(&mut self, clocks: &[Clock<f64>]) -> Result<(), String>;
     /// Seconds spent in each pass of one step, for the benchmark.
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String>;
 }

@@ -10,6 +10,7 @@ pub mod shader;
 
 pub use machine::{Backend, Fetched, Saved};
 
+use crate::complain::complain;
 use crate::memory;
 use crate::scene::Scene;
 use crate::state::State;
@@ -38,7 +39,7 @@ pub fn open(scene: &Scene, choice: &Choice) -> Result<Box<dyn Backend>, String> 
             if found.is_none() {
                 // The sentence is printed once, however many scenes are checked.
                 static TOLD: Once = Once::new();
-                TOLD.call_once(|| eprintln!("no hardware GPU with Vulkan found: running on the CPU"));
+                TOLD.call_once(|| complain("no hardware GPU with Vulkan found: running on the CPU"));
             }
             found
         }

@@ -212,8 +212,11 @@ impl Backend for Scaled {
     fn load(&mut self, groups: &[Saved]) -> Result<(), String> {
         self.inner.load(groups)
     }
-    fn set_steps_done(&mut self, steps: u32) {
-        self.inner.set_steps_done(steps);
+    fn clocks(&mut self) -> Result<Vec<Clock<f64>>, String> {
+        self.inner.clocks()
+    }
+    fn set_clocks(&mut self, clocks: &[Clock<f64>]) -> Result<(), String> {
+        self.inner.set_clocks(clocks)
     }
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {
         self.inner.time_passes(calls, repeats)

@@ -1,17 +1,26 @@
 //! Distance of a series, a profile or the path of a point from a reference table.
 
 use crate::observable::{KINDS, Value, trace};
-use crate::output::csv;
+use crate::output::csv::{self, shortest};
 use crate::run::Finished;
 use crate::scene::Scene;
-use crate::scene::file::{Expect, Norm};
+use crate::scene::file::{Expect, Norm, Scale, ScaleWord};
 use std::path::Path;
 
 /// Abscissa, and one ordinate or the coordinates of a point.
 type Rows = Vec<(f64, Vec<f64>)>;
 
+/// How far a run is from its reference, and what that is a fraction of.
+pub struct Distance {
+    /// In the unit of the reference; of a phase a fraction already.
+    pub gap: f64,
+    pub scale: f64,
+    /// What the scale is, in words.
+    pub of: String,
+}
+
 /// The distance in the norm asked for.
-pub fn distance(scene: &Scene, finished: &Finished, path: &Path, name: &str, expect: &Expect) -> Result<f64, String> {
+pub fn distance(scene: &Scene, finished: &Finished, path: &Path, name: &str, expect: &Expect) -> Result<Distance, String> {
     let reference = reference(path, expect)?;
     let seen = seen(scene, finished, name)?;
     let within = |x: f64| x >= reference[0].0 && x <= reference[reference.len() - 1].0;
@@ -20,14 +29,22 @@ pub fn distance(scene: &Scene, finished: &Finished, path: &Path, name: &str, exp
     if pairs.is_empty() {
         return Err(format!("{name}: no row lies within the reference {}", path.display()));
     }
-    let scale = if expect.relative { pairs.iter().map(|p| length(&p.1)).fold(0.0, f64::max) } else { 1.0 };
     let gap = |p: &(&[f64], Vec<f64>)| length(&p.0.iter().zip(&p.1).map(|(a, b)| a - b).collect::<Vec<_>>());
-    Ok(match expect.norm.unwrap_or(Norm::Max) {
-        Norm::Max => pairs.iter().map(gap).fold(0.0, |m: f64, g| if g.is_nan() { g } else { m.max(g) }) / scale,
-        Norm::Rms => (pairs.iter().map(|p| gap(p).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt() / scale,
-        Norm::Final => gap(&pairs[pairs.len() - 1]) / scale,
+    let norm = expect.norm.unwrap_or(Norm::Max);
+    let gap = match norm {
+        Norm::Max => pairs.iter().map(gap).fold(0.0, |m: f64, g| if g.is_nan() { g } else { m.max(g) }),
+        Norm::Rms => (pairs.iter().map(|p| gap(p).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt(),
+        Norm::Final => gap(&pairs[pairs.len() - 1]),
         Norm::Phase => (period(&seen) / period(&reference) - 1.0).abs(),
-    })
+    };
+    let magnitudes = || pairs.iter().map(|p| length(&p.1));
+    let (scale, of) = match (norm, expect.scale) {
+        (Norm::Phase, _) => (1.0, "period".into()),
+        (_, Some(Scale::Number(scale))) => (scale, shortest(scale)),
+        (_, Some(Scale::Word(ScaleWord::Mean))) => (magnitudes().sum::<f64>() / pairs.len() as f64, "mean".into()),
+        _ => (magnitudes().fold(0.0, f64::max), "peak".into()),
+    };
+    Ok(Distance { gap, scale, of })
 }
 
 fn length(point: &[f64]) -> f64 {

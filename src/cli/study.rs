@@ -12,6 +12,7 @@ mod tensile;
 
 use crate::run::Stop;
 use clap::Subcommand;
+use std::path::Path;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Study {
@@ -72,4 +73,12 @@ pub(super) fn study(study: &Study) -> Result<i32, Stop> {
         Study::Cost(args) => cost::cost(args),
         Study::Ablate(args) => ablate::ablate(args),
     }
+}
+
+/// Refuses to overwrite a table unless forced: before the study, which may take hours.
+fn refuse_existing(path: &Path, force: bool) -> Result<(), Stop> {
+    if path.exists() && !force {
+        return Err(Stop::Refused(format!("{} exists already; --force overwrites it, --out names another file", path.display())));
+    }
+    Ok(())
 }

@@ -3,9 +3,10 @@
 
 use crate::tensor::Real;
 
-/// phi and -phi'.
+/// phi, -phi' and phi''.
 #[inline(always)]
-pub fn at<R: Real>(q: R, _: u32) -> (R, R) {
+pub fn at<R: Real>(q: R, _: u32) -> (R, R, R) {
     let (left, logarithm) = (R::of(1.0) - q, q.ln());
-    (-left * left * logarithm, left * (left / q - R::of(2.0) * logarithm))
+    let (twice, part) = (R::of(2.0) * logarithm, left / q);
+    (-left * left * logarithm, left * (part - twice), part * (R::of(4.0) + part) - twice)
 }

@@ -36,9 +36,9 @@ macro_rules! potentials {
             pub fn source(self) -> &'static str {
                 match self { $(Potential::$name => include_str!(concat!("../../shaders/contact/", stringify!($word), ".wgsl"))),* }
             }
-            /// phi and -phi' at q = r/range, 0 < q < 1.
+            /// phi, -phi' and phi'' at q = r/range, 0 < q < 1.
             #[inline(always)]
-            pub fn at<R: Real>(self, q: R, exponent: u32) -> (R, R) {
+            pub fn at<R: Real>(self, q: R, exponent: u32) -> (R, R, R) {
                 match self { $(Potential::$name => $word::at(q, exponent)),* }
             }
         }
@@ -78,6 +78,10 @@ impl Laws {
     pub fn any(&self) -> bool {
         self.with_energy() || self.zones.is_some()
     }
+    /// Some bodies touch by a law whose stiffness bounds the time step.
+    pub fn stiffens(&self) -> bool {
+        !self.potentials.is_empty()
+    }
     /// Some bodies touch by a law that has an energy.
     pub fn with_energy(&self) -> bool {
         !self.potentials.is_empty() || self.colour_field
@@ -94,17 +98,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_force_is_the_derivative_of_its_potential_and_ends_smoothly() {
+    fn every_force_and_stiffness_is_a_derivative_of_its_potential_and_forces_end_smoothly() {
         for &potential in Potential::ALL {
             let at = |q: f64| potential.at(q, repulsive::EXPONENT);
             for k in 1..100 {
                 let (q, step) = (k as f64 * 0.01, 1e-6);
                 let difference = (at(q - step).0 - at(q + step).0) / (2.0 * step);
-                let (energy, force) = at(q);
+                let (energy, force, bend) = at(q);
                 assert!((force - difference).abs() < 1e-6 * difference.max(1.0), "{potential:?} at {q}: {force} {difference}");
+                let difference = (at(q - step).1 - at(q + step).1) / (2.0 * step);
+                assert!(
+                    (bend - difference).abs() < 2e-6 * difference.abs().max(1.0),
+                    "{potential:?} at {q}: {bend} {difference}"
+                );
                 assert!(energy > 0.0 && force > 0.0);
             }
-            let (energy, force) = at(1.0 - 1e-9);
+            let (energy, force, _) = at(1.0 - 1e-9);
             assert!(energy < 1e-17 && force < 1e-8);
         }
     }

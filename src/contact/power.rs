@@ -3,10 +3,11 @@
 
 use crate::tensor::Real;
 
-/// phi and -phi'.
+/// phi, -phi' and phi''.
 #[inline(always)]
-pub fn at<R: Real>(q: R, _: u32) -> (R, R) {
+pub fn at<R: Real>(q: R, _: u32) -> (R, R, R) {
     let left = R::of(1.0) - q;
-    let force = left * left.sqrt();
-    (left * force, R::of(2.5) * force)
+    let root = left.sqrt();
+    let force = left * root;
+    (left * force, R::of(2.5) * force, R::of(3.75) * root)
 }

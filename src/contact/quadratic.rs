@@ -2,9 +2,9 @@
 
 use crate::tensor::Real;
 
-/// phi and -phi'.
+/// phi, -phi' and phi''.
 #[inline(always)]
-pub fn at<R: Real>(q: R, _: u32) -> (R, R) {
+pub fn at<R: Real>(q: R, _: u32) -> (R, R, R) {
     let left = R::of(1.0) - q;
-    (left * left, R::of(2.0) * left)
+    (left * left, R::of(2.0) * left, R::of(2.0))
 }

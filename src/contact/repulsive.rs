@@ -9,14 +9,18 @@ use crate::tensor::Real;
 /// n unless given: Strand's usual one.
 pub const EXPONENT: u32 = 4;
 
-/// phi and -phi'.
+/// phi, -phi' and phi''.
 #[inline(always)]
-pub fn at<R: Real>(q: R, exponent: u32) -> (R, R) {
-    let (twice, at_h) = (R::of(2.0) * q, R::of(4.0));
+pub fn at<R: Real>(q: R, exponent: u32) -> (R, R, R) {
+    let (twice, at_h, n) = (R::of(2.0) * q, R::of(4.0), R::of(f64::from(exponent)));
     let f = at_h * CubicSpline::shape(twice);
-    let power = (0..exponent).fold(R::of(1.0), |product, _| product * f);
-    let slope = R::of(-2.0 * f64::from(exponent + 1)) * at_h * CubicSpline::slope(twice);
-    (power * f, power * slope)
+    let lower = (1..exponent).fold(R::of(1.0), |product, _| product * f);
+    let power = lower * f;
+    let slope = R::of(-2.0) * at_h * CubicSpline::slope(twice);
+    let (outer, inner) = ((R::of(2.0) - twice).max(R::of(0.0)), (R::of(1.0) - twice).max(R::of(0.0)));
+    let bend = at_h * (R::of(6.0) * outer - R::of(24.0) * inner);
+    let many = n + R::of(1.0);
+    (power * f, many * power * slope, many * lower * (n * slope * slope + f * bend))
 }
 
 /// Strength of two particles of unit density and volume `volume` for k = 1: volume^2 W(h)/(n + 1).

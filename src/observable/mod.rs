@@ -32,7 +32,7 @@ pub use trace::trace;
 
 use crate::fields::Field;
 use crate::scene::Scene;
-use crate::scene::file::Observe;
+use crate::scene::file::{Observe, Scale, Statement};
 use crate::scene::read::{hint, nearest};
 
 /// Every kind, in the order that `lithosph list` prints.
@@ -226,22 +226,7 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
     if expect.source.is_empty() {
         return Err("needs a source: where does the number come from?".into());
     }
-    // Beside a reference, the range is that of a distance that is known to be too large. Beside a value, the range is that of the
-    // number that is known to come out instead.
-    let alone = expect.between.is_some() && expect.reference.is_none() && expect.value.is_none();
-    let forms = [expect.value.is_some(), expect.reference.is_some(), alone];
-    if forms.iter().filter(|&&f| f).count() != 1 {
-        return Err("needs exactly one of value, reference and between".into());
-    }
-    if expect.between.is_some() && expect.tolerance.is_some() {
-        return Err("takes a tolerance or the range of a known miss, not both".into());
-    }
-    if expect.between.is_none() && expect.tolerance.is_none() {
-        return Err("needs a tolerance".into());
-    }
-    if expect.between.is_some() && expect.because.is_none() {
-        return Err("gives the range of a known miss: it needs `because`".into());
-    }
+    check_statement(expect)?;
     check_columns(&scene.file.observe[name].kind, expect)?;
     if let Some(variant) = &expect.variant
         && !scene.file.variant.contains_key(variant)
@@ -251,6 +236,40 @@ fn check_expect(scene: &Scene, name: &str, expect: &crate::scene::file::Expect) 
         return Err(format!("holds for `{variant}`, which is no variant{}", hint(variant, &variants)));
     }
     Ok(())
+}
+
+/// Whether an expectation names what its kind needs, and nothing else.
+fn check_statement(expect: &crate::scene::file::Expect) -> Result<(), String> {
+    let (truth, pinned) = (expect.kind == Statement::Truth, expect.kind == Statement::Pinned);
+    let forms = [expect.value.is_some(), expect.reference.is_some(), expect.between.is_some()];
+    let wanted = match forms.iter().filter(|&&form| form).count() {
+        1 if pinned => Some("is pinned because no truth is at hand: it takes neither value, reference nor between"),
+        1 if expect.between.is_some() && !truth => Some("gives a range of the truth, which only `kind = \"truth\"` takes"),
+        0 if pinned => None,
+        1 => None,
+        0 if !truth => Some("states an error: it needs the truth, a value or a reference"),
+        _ => Some("needs exactly one of value, reference and between"),
+    };
+    let seen = match (truth, expect.seen) {
+        (true, Some(_)) => Some("names what is seen: it needs `kind`, \"failure\", \"shortfall\" or \"pinned\""),
+        (false, None) => Some("needs `seen`, the number that comes out"),
+        _ if !truth && expect.because.is_none() => Some("needs `because`: why does another number than the truth come out?"),
+        _ => None,
+    };
+    let tolerance = match (expect.between.is_some(), expect.tolerance) {
+        (false, None) => Some("needs a tolerance"),
+        (true, Some(_)) => Some("takes a tolerance or the range of its source, not both"),
+        _ if !truth && expect.reference.is_none() && expect.unit().is_none() => {
+            Some("is relative to the value 0: it needs a scale")
+        }
+        _ => None,
+    };
+    let scale = match expect.scale {
+        Some(Scale::Number(scale)) if !(scale.is_finite() && scale > 0.0) => Some("needs a scale above 0"),
+        Some(Scale::Word(_)) if expect.reference.is_none() => Some("has no curve: its scale must be a number"),
+        _ => None,
+    };
+    [wanted, seen, tolerance, scale].into_iter().flatten().next().map_or(Ok(()), |complaint| Err(complaint.into()))
 }
 
 fn check_columns(kind: &str, expect: &crate::scene::file::Expect) -> Result<(), String> {

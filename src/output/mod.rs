@@ -5,9 +5,11 @@
 //!
 //! | file | written by | read back by |
 //! |---|---|---|
-//! | `series.csv` | [`csv::Series`], one flushed row an output | [`csv::read`] |
-//! | `particles.vtkhdf` | `vtkhdf`, opened, appended and closed at each output | ParaView, `lithosph render` |
+//! | `series.csv` | [`csv::Series`], one row an output | [`csv::read`] |
+//! | `particles/*.vtkhdf`, `particles.vtkhdf` | `vtkhdf`, a file for each frame and a master | ParaView, `lithosph render` |
 //! | `frames/*.png` | [`impostor::draw`] on a GPU, else [`splat::splat`] | people |
+//!
+//! [`durable`] puts whole files into their places, [`manifest`] keeps a list of them, and [`lock`] keeps a second run out.
 //!
 //! The two painters share everything but the filling of pixels: [`picture::compose`] places the
 //! particles, and [`picture::Picture::finish`] adds the colour bar, the axes and the caption.
@@ -16,9 +18,14 @@ pub mod axis;
 pub mod camera;
 pub mod colour;
 pub mod csv;
+pub mod durable;
 mod follow;
 pub mod impostor;
 mod ink;
+pub mod lock;
+pub mod manifest;
+#[cfg(feature = "hdf5")]
+pub mod memory_file;
 pub mod overlay;
 pub mod picture;
 #[cfg(test)]
@@ -32,7 +39,8 @@ pub use follow::follow;
 pub use picture::View;
 pub use snapshot::{Column, Snapshot};
 
-use std::path::{Path, PathBuf};
+use std::io::Cursor;
+use std::path::Path;
 
 /// What paints: the splatter, or a GPU. On a software adapter the splatter is 2.5 times faster.
 pub enum Painter {
@@ -59,20 +67,16 @@ impl Painter {
     }
 }
 
-/// Writes `image` as PNG, aside and renamed, so that a kill never leaves half a picture.
-pub fn save_png(path: &Path, image: &image::RgbaImage) -> Result<(), String> {
-    let part = aside(path);
-    image
-        .save_with_format(&part, image::ImageFormat::Png)
-        .map_err(|error| format!("cannot write {}: {error}", part.display()))?;
-    std::fs::rename(&part, path).map_err(|error| format!("cannot write {}: {error}", path.display()))
+/// The bytes of `image` as PNG.
+pub fn png(image: &image::RgbaImage) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    let written = image.write_to(&mut bytes, image::ImageFormat::Png);
+    written.map(|()| bytes.into_inner()).map_err(|error| format!("cannot make a picture of {} pixels: {error}", image.len() / 4))
 }
 
-/// The name under which a file is written before it takes its own: `x.png` becomes `x.png.part`.
-fn aside(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".part");
-    name.into()
+/// Writes `image` as PNG, so that a kill never leaves half a picture.
+pub fn save_png(path: &Path, image: &image::RgbaImage) -> Result<(), String> {
+    durable::put(path, &[&png(image)?])
 }
 
 #[cfg(test)]
@@ -85,7 +89,7 @@ mod tests {
         let image = image::RgbaImage::from_fn(5, 3, |x, y| image::Rgba([x as u8 * 40, y as u8 * 80, 7, 255]));
         save_png(&path, &image).unwrap();
         assert_eq!(image::open(&path).unwrap().to_rgba8(), image);
-        assert!(!aside(&path).exists());
+        assert!(!durable::aside(&path).exists());
         std::fs::remove_file(&path).unwrap();
     }
 

@@ -13,7 +13,11 @@ pub const PASS: Declaration = {
         about: "brings groups to one time step; finds whether the list of contacts between them still holds",
         entries: &[Entry::new("blocks", Domain::ReductionBlocks), Entry::new("advance", Domain::One)],
         runs: Runs::Running,
-        own: &[always(&[Velocity, BlockBound]), when(|m| m.listed_again(), &[Displacement, ListedDisplacement])],
+        own: &[
+            always(&[Velocity, BlockBound]),
+            when(|m| m.contact.stiffens(), &[ContactRate]),
+            when(|m| m.listed_again(), &[Displacement, ListedDisplacement]),
+        ],
         neighbours: &[],
         writes: &[always(&[BlockBound])],
     }
@@ -24,12 +28,13 @@ pub fn run<S: Space>(state: &mut State<S>, _: Stage) {
     agree(state, motion);
 }
 
-/// Squared displacement since the list was built, and squared speed, where they stand in the bound of a group.
+/// Squared rate of the contacts between groups, squared displacement since the list was built, and squared speed, where they stand in the bound of a group.
 fn motion_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let columns = &state.columns;
     let moved = columns.listed_displacement.get(a).map_or(S::Vec::default(), |listed| columns.displacement[a] - *listed);
     let zero = S::Real::of(0.0);
-    [zero, S::inner(moved, moved), S::inner(columns.velocity[a], columns.velocity[a]), zero]
+    let rate = columns.contact_rate.get(a).copied().unwrap_or(zero);
+    [rate, S::inner(moved, moved), S::inner(columns.velocity[a], columns.velocity[a]), zero]
 }
 
 /// A group that has less left than a rounding error of its step stops; then all do.
@@ -45,6 +50,9 @@ fn agree<S: Space>(state: &mut State<S>, motion: [S::Real; 4]) {
     }
     if state.clock.fault != 0 {
         (agreed.fault, agreed.running) = (state.clock.fault, 0);
+    }
+    if motion[0] > S::Real::of(0.0) && state.params.fixed_step == S::Real::of(0.0) {
+        agreed.step = agreed.step.min(state.params.cfl / motion[0].sqrt());
     }
     let ahead = motion[1].sqrt() + motion[2].sqrt() * agreed.step;
     agreed.rebuild = u32::from(state.method.listed_again() && ahead > state.params.slack);

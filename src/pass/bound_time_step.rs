@@ -25,6 +25,7 @@ pub const PASS: Declaration = {
         own: &[
             always(&[Velocity, Acceleration, BlockBound]),
             when(|m| m.many_bodies, &[Body]),
+            when(|m| m.contact.stiffens(), &[ContactRate]),
             when(|m| m.listed_again(), &[Displacement, ListedDisplacement]),
             when(|m| m.finite_strain(), &[DisplacementGradient]),
             when(|m| !m.finite_strain(), &[VolumetricStrain, VelocityGradient]),
@@ -72,6 +73,9 @@ fn bound_of<S: Space>(state: &State<S>, a: usize) -> [S::Real; 4] {
     let mut rate = waves.max((pull.sqrt() / h).sqrt());
     if state.method.facets() {
         rate = (rate * rate + params.contact_rate).sqrt();
+    }
+    if state.method.contact.stiffens() {
+        rate = (rate * rate + columns.contact_rate[a]).sqrt();
     }
     let moved = columns.listed_displacement.get(a).map_or(S::Vec::default(), |listed| columns.displacement[a] - *listed);
     let (moved, speed) = (S::inner(moved, moved), S::inner(columns.velocity[a], columns.velocity[a]));

@@ -106,6 +106,27 @@ impl Balance {
         Some(sentence(scene, &seen))
     }
 
+    /// Numbers for a checkpoint.
+    pub fn save(&self) -> Vec<f64> {
+        let mut numbers = vec![self.largest, self.noted];
+        if let Some(Imbalance { load_step, force, of, body }) = self.worst {
+            numbers.extend([load_step as f64, force, of, body.map_or(-1.0, |body| body as f64)]);
+        }
+        numbers
+    }
+
+    /// Goes on from the numbers of a checkpoint.
+    pub fn load(numbers: &[f64]) -> Self {
+        let worst = match numbers {
+            &[_, _, load_step, force, of, body] => {
+                Some(Imbalance { load_step: load_step as usize, force, of, body: (body >= 0.0).then_some(body as usize) })
+            }
+            _ => None,
+        };
+        let number = |k: usize| numbers.get(k).copied().unwrap_or(0.0);
+        Self { largest: number(0), noted: number(1), worst }
+    }
+
     pub fn report(&self, scene: &Scene) -> Option<Report> {
         let worst = self.worst?;
         let share = worst.share();

@@ -1,8 +1,14 @@
-//! What a run needs to go on with the same bits: the carried fields in their order, time and step.
+//! What a run needs to go on with the same bits: the carried fields in their order, time and step, and what it has seen so far.
 
+use super::summary::StepLengths;
 use crate::backend::{Backend, Saved};
+use crate::output::manifest::Content;
+use crate::rows::Clock;
 use crate::scene::Scene;
-use std::path::Path;
+
+/// Its file, and where the one before goes.
+pub const NAME: &str = "checkpoint.h5";
+pub const PREVIOUS: &str = "checkpoint.previous.h5";
 
 /// A stored state.
 pub struct Checkpoint {
@@ -19,12 +25,36 @@ pub struct Checkpoint {
     pub device: String,
     /// The carried fields of each group of particles.
     pub groups: Vec<Saved>,
+    pub story: Story,
+}
+
+/// What a run has counted and said, so that its summary is that of an unbroken one.
+#[derive(Debug, Clone, Default)]
+pub struct Story {
+    /// The clocks of the machine's members.
+    pub clocks: Vec<Clock<f64>>,
+    pub lists: u32,
+    pub lengths: StepLengths,
+    pub warnings: Vec<String>,
+    /// Pairs of bodies whose meeting was told.
+    pub told: Vec<[String; 2]>,
+    /// See `Balance::save`.
+    pub balance: Vec<f64>,
+    /// Mean number of neighbours; none but at the end of the run.
+    pub neighbors: Option<f64>,
+    /// Seconds of wall and of processor time.
+    pub spent: [f64; 2],
+    /// The series up to here.
+    pub series: Option<Content>,
+    /// Frames up to here: number, time and step.
+    pub frames: Vec<(u32, f64, u64)>,
 }
 
 impl Checkpoint {
     pub fn new(scene: &Scene, backend: &dyn Backend, (event, time, steps): (usize, f64, u32), groups: Vec<Saved>) -> Self {
         let (name, variant, scene) = (scene.name.clone(), scene.variant.clone(), scene.text.clone());
-        Self { event, time, steps, watch: Vec::new(), name, variant, scene, device: backend.describe(), groups }
+        let (device, story) = (backend.describe(), Story::default());
+        Self { event, time, steps, watch: Vec::new(), name, variant, scene, device, groups, story }
     }
 
     /// Refuses a checkpoint of another scene, which could not give the same bits.
@@ -48,83 +78,7 @@ impl Checkpoint {
 }
 
 #[cfg(feature = "hdf5")]
-mod stored {
-    use super::{Checkpoint, Path, Saved};
-    use crate::fields::Field;
-    use crate::output::vtkhdf::reason;
-
-    /// Where the file has the fields of a group of particles.
-    fn place(group: usize) -> String {
-        if group == 0 { "fields".into() } else { format!("fields_{group}") }
-    }
-
-    impl Checkpoint {
-        /// Written aside and renamed, so that the folder always holds a whole one.
-        pub fn write(&self, folder: &Path) -> Result<(), String> {
-            let (aside, path) = (folder.join("checkpoint.h5.part"), folder.join("checkpoint.h5"));
-            self.write_to(&aside).map_err(|e| format!("cannot write {}: {}", path.display(), reason(&e)))?;
-            std::fs::rename(&aside, &path).map_err(|e| format!("cannot write {}: {e}", path.display()))
-        }
-
-        fn write_to(&self, path: &Path) -> hdf5::Result<()> {
-            let file = hdf5::File::create(path)?;
-            let numbers = [self.event as f64, self.time, f64::from(self.steps)];
-            file.new_dataset_builder().with_data(&numbers).create("progress")?;
-            file.new_dataset_builder().with_data(&self.watch).create("watch")?;
-            let texts = [("name", Some(&self.name)), ("variant", self.variant.as_ref()), ("scene", Some(&self.scene))];
-            for (name, text) in texts.into_iter().chain([("device", Some(&self.device))]) {
-                if let Some(text) = text {
-                    file.new_dataset_builder().with_data(text.as_bytes()).create(name)?;
-                }
-            }
-            for (k, columns) in self.groups.iter().enumerate() {
-                let group = file.create_group(&place(k))?;
-                for (field, bytes) in columns {
-                    group.new_dataset_builder().with_data(bytes.as_slice()).create(field.name())?;
-                }
-            }
-            file.flush()
-        }
-    }
-
-    pub fn read(folder: &Path) -> Result<Checkpoint, String> {
-        let path = folder.join("checkpoint.h5");
-        if !path.exists() {
-            return Err(format!("{} holds no checkpoint.h5 to resume from", folder.display()));
-        }
-        read_from(&path).map_err(|e| format!("cannot read {}: {}", path.display(), reason(&e)))
-    }
-
-    fn read_from(path: &Path) -> hdf5::Result<Checkpoint> {
-        let file = hdf5::File::open(path)?;
-        let progress = file.dataset("progress")?.read_raw::<f64>()?;
-        let text = |name: &str| -> hdf5::Result<String> {
-            Ok(String::from_utf8_lossy(&file.dataset(name)?.read_raw::<u8>()?).into_owned())
-        };
-        let mut groups = Vec::new();
-        for name in (0..).map(place).take_while(|name| file.link_exists(name)) {
-            let group = file.group(&name)?;
-            let mut columns = Saved::new();
-            for &field in Field::ALL {
-                if group.link_exists(field.name()) {
-                    columns.insert(field, group.dataset(field.name())?.read_raw::<u8>()?);
-                }
-            }
-            groups.push(columns);
-        }
-        Ok(Checkpoint {
-            event: progress[0] as usize,
-            time: progress[1],
-            steps: progress[2] as u32,
-            watch: if file.link_exists("watch") { file.dataset("watch")?.read_raw::<f64>()? } else { Vec::new() },
-            name: text("name")?,
-            variant: if file.link_exists("variant") { Some(text("variant")?) } else { None },
-            scene: text("scene")?,
-            device: text("device")?,
-            groups,
-        })
-    }
-}
+mod stored;
 
 #[cfg(feature = "hdf5")]
 pub use stored::read;
@@ -132,12 +86,12 @@ pub use stored::read;
 #[cfg(not(feature = "hdf5"))]
 impl Checkpoint {
     /// A build without HDF5 keeps no checkpoints.
-    pub fn write(&self, _: &Path) -> Result<(), String> {
-        Ok(())
+    pub fn put<T>(self, _: impl FnOnce(&[&[u8]]) -> Result<T, String>) -> Result<Option<T>, String> {
+        Ok(None)
     }
 }
 
 #[cfg(not(feature = "hdf5"))]
-pub fn read(_: &Path) -> Result<Checkpoint, String> {
+pub fn read(_: &std::path::Path) -> Result<Checkpoint, String> {
     Err("this build has no HDF5 and so keeps no checkpoints".into())
 }

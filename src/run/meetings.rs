@@ -25,6 +25,16 @@ pub struct Meetings {
 }
 
 impl Meetings {
+    /// For a checkpoint.
+    pub fn save(&self) -> Vec<[String; 2]> {
+        self.told.iter().cloned().collect()
+    }
+
+    /// Goes on from what was told up to a checkpoint.
+    pub fn load(told: &[[String; 2]]) -> Self {
+        Self { told: told.iter().cloned().collect() }
+    }
+
     /// Whether a scene has bodies that could meet so.
     pub fn possible(scene: &Scene) -> bool {
         !scene.strangers.is_empty()

@@ -5,15 +5,17 @@ mod checkpoint;
 mod fault;
 mod files;
 mod meetings;
+mod stop;
 mod summary;
 mod warn;
 mod watch;
 
 pub use files::{Files, folder};
+pub use stop::Stop;
 pub use summary::{Counted, Said, StepLengths, Stopwatch, Summary};
 
 use balance::Balance;
-use checkpoint::Checkpoint;
+use checkpoint::{Checkpoint, Story};
 use meetings::Meetings;
 use watch::{Verdict, Watch};
 
@@ -28,6 +30,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// What the command line asks of a run.
 #[derive(Debug, Clone, Default)]
@@ -40,22 +43,13 @@ pub struct Options {
     pub quiet: bool,
     /// What happens when the energy drifts, in place of the scene's `watch.energy`.
     pub energy: Option<EnergyWatch>,
+    /// Wall time after which the run is given up as if interrupted.
+    pub within: Option<Duration>,
 }
 
 impl Options {
     /// For studies that run what fails, and measure the failure themselves.
     pub const UNWATCHED: Option<EnergyWatch> = Some(EnergyWatch::Off);
-}
-
-/// Why a run ended before its time.
-#[derive(Debug)]
-pub enum Stop {
-    /// Bad input: exit code 2.
-    Refused(String),
-    /// Went wrong: exit code 1.
-    Failed(String),
-    /// By the user: exit code 130.
-    Interrupted(String),
 }
 
 /// A finished run.
@@ -91,30 +85,53 @@ pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Re
 
 fn begin(scene: &Scene, options: &Options, backend: Box<dyn Backend>, warnings: Vec<String>) -> Result<Finished, Stop> {
     warn::say(&warnings);
-    let files = if options.dry { None } else { Some(Files::create(scene, options).map_err(Stop::Refused)?) };
+    let files = if options.dry { None } else { Some(Files::create(scene, options)?) };
     Run::new(scene, options, backend, files, warnings).go()
 }
 
-/// Goes on from the checkpoint in a run's folder, to the same bits as a run that was never broken off;
-/// `None` where the run had come to its end.
+/// Goes on from the last good state in a run's folder, or from the start where the run had not come to its first, to the same
+/// bits as a run that was never broken off; `None` where the run had come to its end.
 pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Option<Finished>, Stop> {
-    let saved = checkpoint::read(&folder).map_err(Stop::Refused)?;
+    let mut known = files::find(&folder)?;
+    let mut scene = scene.clone();
+    // The folder's `run.toml` has lost them.
+    match &known.saved {
+        Some(saved) => (scene.name, scene.variant) = (saved.name.clone(), saved.variant.clone()),
+        None => files::begun_as(&mut scene, known.manifest.about()),
+    }
+    let (scene, label) = (&scene, scene.label());
+    let damage: Vec<String> = std::mem::take(&mut known.damage).into_iter().map(|what| format!("{label}: {what}")).collect();
+    let Some(saved) = &mut known.saved else {
+        let warnings = warn::of(scene);
+        let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
+        warn::say(&warnings);
+        let (files, _) = Files::reopen(options, folder, known)?;
+        return Run::new(scene, options, backend, Some(files), warnings).go().map(Some);
+    };
     saved.check_scene(scene).map_err(Stop::Refused)?;
-    if saved.event >= Schedule::new(scene).events().len() && folder.join("summary.json").exists() {
+    damage.iter().for_each(|sentence| warn::say_one(sentence));
+    if saved.event >= Schedule::new(scene).events().len() && known.finished {
         return Ok(None);
     }
-    // The folder's `run.toml` has lost them.
-    let scene = &Scene { name: saved.name.clone(), variant: saved.variant.clone(), ..scene.clone() };
     let warnings = warn::of(scene);
     let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     saved.check_device(&*backend).map_err(Stop::Refused)?;
-    backend.load(&saved.groups).map_err(Stop::Refused)?;
-    backend.set_steps_done(saved.steps);
+    backend.load(&std::mem::take(&mut saved.groups)).map_err(Stop::Refused)?;
+    backend.set_clocks(&saved.story.clocks).map_err(Stop::Failed)?;
     warn::say(&warnings);
-    let (files, table) = Files::reopen(scene, options, folder, saved.time).map_err(Stop::Refused)?;
+    let (event, time, steps) = (saved.event, saved.time, saved.steps);
+    let (watch, story) = (std::mem::take(&mut saved.watch), saved.story.clone());
+    let (files, table) = Files::reopen(options, folder, known)?;
     let mut run = Run::new(scene, options, backend, Some(files), warnings);
-    (run.event, run.time, run.steps, run.table) = (saved.event, saved.time, saved.steps, table);
-    run.energy.load(&saved.watch);
+    (run.event, run.time, run.steps, run.table) = (event, time, steps, table);
+    (run.lists, run.lengths) = (story.lists, story.lengths);
+    run.energy.load(&watch);
+    run.meetings = Meetings::load(&story.told);
+    run.balance = Balance::load(&story.balance);
+    run.stopwatch.go_on(story.spent);
+    run.neighbors = story.neighbors;
+    run.warnings = story.warnings;
+    run.warnings.extend(damage);
     run.go().map(Some)
 }
 
@@ -200,7 +217,10 @@ struct Run<'a> {
     meetings: Meetings,
     bar: ProgressBar,
     stopwatch: Stopwatch,
+    /// As a checkpoint at the end tells it.
+    neighbors: Option<f64>,
     energy: Watch,
+    within: Option<Duration>,
     balance: Balance,
     /// What the run has said beside the results: first what the scene gave reason for.
     warnings: Vec<String>,
@@ -239,7 +259,9 @@ impl<'a> Run<'a> {
             meetings: Meetings::default(),
             bar,
             stopwatch: Stopwatch::start(),
+            neighbors: None,
             energy: Watch::new(scene, options.energy),
+            within: options.within,
             balance: Balance::default(),
             warnings,
         }
@@ -290,6 +312,10 @@ impl<'a> Run<'a> {
             }
             if INTERRUPTED.load(Ordering::Relaxed) {
                 return Err(Stop::Interrupted(format!("interrupted at t = {now:.6e}, step {}{}", self.steps, self.advice())));
+            }
+            if let Some(within) = self.within.filter(|&within| self.stopwatch.elapsed() > within) {
+                let (limit, end) = (within.as_secs_f64(), self.scene.file.duration);
+                return Err(Stop::Interrupted(format!("not finished in {limit:.0} s: t = {now:.3e} of {end:.3e}")));
             }
             if clock.running == 0 {
                 return Ok(clock.elapsed);
@@ -393,6 +419,10 @@ impl<'a> Run<'a> {
             Some(sentence) => Verdict::Stop(sentence),
             None => verdict,
         };
+        // Before the checkpoint, which remembers that it was said.
+        if let Verdict::Warn(sentence) = &verdict {
+            self.warn(Some(sentence.clone()));
+        }
         if matches!(verdict, Verdict::Stop(_)) && !frame && self.files.is_some() {
             // The last state is kept as a frame to look at, whose fields this event alone would not have fetched.
             let fetched = self.backend.fetch(&self.frame_fields).map_err(|e| self.fail(&e))?;
@@ -402,11 +432,7 @@ impl<'a> Run<'a> {
             self.write(&moment, row, frame).map_err(|e| self.fail(&e))?;
         }
         match verdict {
-            Verdict::Well => Ok(()),
-            Verdict::Warn(sentence) => {
-                self.warn(Some(sentence));
-                Ok(())
-            }
+            Verdict::Well | Verdict::Warn(_) => Ok(()),
             Verdict::Stop(sentence) => Err(self.fail(&sentence)),
         }
     }
@@ -421,6 +447,9 @@ impl<'a> Run<'a> {
 
     /// Row, frame and checkpoint of a moment.
     fn write(&mut self, moment: &Moment, row: bool, frame: bool) -> Result<(), String> {
+        if self.event == self.events.len() && self.files.is_some() {
+            self.neighbors = Some(self.neighbors()?);
+        }
         let Some(files) = &mut self.files else { return Ok(()) };
         if row {
             files.row(moment.time, &self.observers, &self.table)?;
@@ -433,7 +462,18 @@ impl<'a> Run<'a> {
             let groups = self.backend.save()?;
             let mut saved = Checkpoint::new(self.scene, &*self.backend, (self.event, moment.time, self.steps), groups);
             saved.watch = self.energy.save();
-            files.checkpoint(&saved)?;
+            saved.story = Story {
+                clocks: self.backend.clocks()?,
+                lists: self.lists,
+                lengths: self.lengths,
+                warnings: self.warnings.clone(),
+                told: self.meetings.save(),
+                balance: self.balance.save(),
+                neighbors: self.neighbors,
+                spent: self.stopwatch.spent(),
+                ..Story::default()
+            };
+            files.checkpoint(saved)?;
         }
         Ok(())
     }
@@ -447,13 +487,23 @@ impl<'a> Run<'a> {
             energy: self.energy.report(self.scene),
             balance: self.balance.report(self.scene),
         };
-        let counts = Counted { steps: self.steps, lists_built: self.lists, lengths: self.lengths };
-        let summary = Summary::new(self.scene, &mut *self.backend, counts, &self.stopwatch, said).map_err(|e| self.fail(&e))?;
+        let neighbors = self.neighbors().map_err(|e| self.fail(&e))?;
+        let counts = Counted { steps: self.steps, lists_built: self.lists, lengths: self.lengths, neighbors };
+        let summary = Summary::new(self.scene, &*self.backend, counts, &self.stopwatch, said);
         let finished = Finished { table: self.table, profiles, summary, folder: self.files.as_ref().map(|f| f.folder.clone()) };
-        if let Some(files) = &self.files {
+        if let Some(files) = &mut self.files {
             files.finish(self.scene, &finished).map_err(Stop::Failed)?;
         }
         Ok(finished)
+    }
+
+    /// Mean number of neighbours over all particles at the end. A run that goes on there has no list to count.
+    fn neighbors(&mut self) -> Result<f64, String> {
+        if let Some(neighbors) = self.neighbors {
+            return Ok(neighbors);
+        }
+        let counts = self.backend.fetch(&[Field::NeighborCount])?;
+        Ok(counts[&Field::NeighborCount].iter().sum::<f64>() / self.scene.particles.len() as f64)
     }
 
     fn profiles(&self, moment: &Moment) -> BTreeMap<String, Vec<(f64, f64)>> {

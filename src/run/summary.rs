@@ -3,23 +3,39 @@
 use super::{balance, watch};
 use crate::backend::Backend;
 use crate::backend::cpu::processor_seconds;
-use crate::fields::Field;
 use crate::rows::Clock;
 use crate::scene::{BodyMass, Scene};
 use crate::step;
 use serde_json::json;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Measures wall and processor time from the run's first step, when the backend is open already.
 pub struct Stopwatch {
     begin: Instant,
     /// Processor seconds that this process had used before the run.
     processor: f64,
+    /// Wall and processor seconds of the run before it was broken off.
+    before: [f64; 2],
 }
 
 impl Stopwatch {
     pub fn start() -> Self {
-        Self { begin: Instant::now(), processor: processor_seconds() }
+        Self { begin: Instant::now(), processor: processor_seconds(), before: [0.0; 2] }
+    }
+
+    /// Goes on where a run was broken off, after so many seconds of wall and of processor time.
+    pub fn go_on(&mut self, before: [f64; 2]) {
+        self.before = before;
+    }
+
+    /// Seconds of wall and of processor time.
+    pub fn spent(&self) -> [f64; 2] {
+        [self.before[0] + self.begin.elapsed().as_secs_f64(), self.before[1] + processor_seconds() - self.processor]
+    }
+
+    /// Wall time since the start.
+    pub fn elapsed(&self) -> Duration {
+        self.begin.elapsed()
     }
 }
 
@@ -87,6 +103,8 @@ pub struct Counted {
     pub steps: u32,
     pub lists_built: u32,
     pub lengths: StepLengths,
+    /// See [`Summary::neighbors`].
+    pub neighbors: f64,
 }
 
 /// What a run says of itself beside the results.
@@ -100,24 +118,17 @@ pub struct Said {
 }
 
 impl Summary {
-    pub fn new(
-        scene: &Scene,
-        backend: &mut dyn Backend,
-        counted: Counted,
-        watch: &Stopwatch,
-        said: Said,
-    ) -> Result<Self, String> {
-        let Counted { steps, lists_built, lengths } = counted;
-        let (seconds, processor_seconds) = (watch.begin.elapsed().as_secs_f64(), processor_seconds() - watch.processor);
+    pub fn new(scene: &Scene, backend: &dyn Backend, counted: Counted, watch: &Stopwatch, said: Said) -> Self {
+        let Counted { steps, lists_built, lengths, neighbors } = counted;
+        let [seconds, processor_seconds] = watch.spent();
         let forces = step::step(&scene.groups()[0].method).iter().filter(|call| call.pass.is_force()).count() as u64;
         let begun = scene.file.quasi_static.as_ref().map_or(0, |typed| u64::from(typed.load_steps));
-        let counts = backend.fetch(&[Field::NeighborCount])?;
         let particles = scene.particles.len();
         let passes = step::passes_of(&scene.methods());
-        Ok(Self {
+        Self {
             device: backend.describe(),
             particles,
-            neighbors: counts[&Field::NeighborCount].iter().sum::<f64>() / particles as f64,
+            neighbors,
             steps,
             lists_built,
             lengths,
@@ -128,7 +139,7 @@ impl Summary {
             processor_seconds,
             force_evaluations: u64::from(steps) * forces + begun,
             said,
-        })
+        }
     }
 
     /// Particle-steps per second of wall time, outputs included.

@@ -1,6 +1,7 @@
 //! Warnings on standard error.
 
 use crate::backend::frequency;
+use crate::complain::complain;
 use crate::scene::Scene;
 use crate::scene::interval::ROUNDING;
 use crate::scene::words::rounded;
@@ -50,6 +51,6 @@ pub(super) fn say_one(warning: &str) {
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
     let thing = warning.split_once(": ").map_or(warning, |(_, thing)| thing);
     if said.insert(thing.into()) {
-        eprintln!("lithosph: warning: {warning}");
+        complain(&format!("lithosph: warning: {warning}"));
     }
 }

@@ -15,7 +15,7 @@ impl BodyTable {
     pub(super) fn lattice_anchor(&self, spacing: f64, dimension: usize) -> DVec3 {
         match &self.anchor {
             Some(typed) => used(typed.vector(), dimension),
-            None => centred(&self.shape, self.packing, spacing, dimension),
+            None => centred(&self.shape, self.packing(), spacing, dimension),
         }
     }
 }

@@ -78,7 +78,7 @@ fn likely(file: &File, typed: &BodyTable, body: &SceneBody) -> f64 {
     if typed.shape.check(file.dimension).is_err() {
         return 0.0;
     }
-    denser(typed.packing, file.dimension) * typed.shape.volume(file.dimension) / body.spacing.powi(file.dimension as i32)
+    denser(typed.packing(), file.dimension) * typed.shape.volume(file.dimension) / body.spacing.powi(file.dimension as i32)
 }
 
 /// Particles in a cube of one spacing.

@@ -117,13 +117,16 @@ pub struct BodyTable {
     /// More bodies of the same kind, on a grid.
     pub copies: Option<Copies>,
     pub shape: Shape,
-    #[serde(default)]
-    pub packing: Packing,
+    /// Unless given a lattice, or fitted to the shape's boundary where the body touches others: see `src/scene/surface.rs`.
+    pub packing: Option<Packing>,
     /// Particle spacing, if not the scene's.
     pub spacing: Option<f64>,
     /// A point of the lattice. Unless given the lattice is centred in the box around the shape, so that a box of whole multiples of
     /// the spacing is filled to its faces.
     pub anchor: Option<Coordinates>,
+    /// Facets of its surface to a spacing, in each direction, where it touches by a gap or an obstacle. 1 unless given; 4 in the plane
+    /// and 2 in space where something sharp is touched: a facet is met at its middle, so that an edge between two would come late.
+    pub facets: Option<u32>,
     pub material: String,
     /// Name of a `[formulation.NAME]`; the plain `[formulation]` unless given.
     pub formulation: Option<String>,
@@ -692,23 +695,77 @@ pub struct Observe {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Expect {
+    /// What the row states: the truth, which must come out, unless given.
+    pub kind: Statement,
+    /// The truth.
     pub value: Option<f64>,
+    /// Largest distance from the truth, at most twice the error seen; of all kinds but the truth, from what was `seen`.
     pub tolerance: Option<f64>,
-    /// The tolerance is a fraction of the value.
+    /// The tolerance is a fraction of the scale, and so is the distance from a reference.
     pub relative: bool,
+    /// What errors are a fraction of, a number or a word. Unless given it is the value; of a value 0 the largest number of the
+    /// run's own series; of a reference its peak.
+    pub scale: Option<Scale>,
     pub reference: Option<String>,
     /// Column of the abscissa (time, or position for a profile) and of the ordinate, or of both coordinates of a trace.
     pub columns: Option<Vec<String>>,
     pub norm: Option<Norm>,
-    /// Range in which the number lies that a method is known to get wrong; with a `reference`, the range of the distance from
-    /// it. `value` may name the truth beside it. Such a row prints as a known miss.
+    /// The number that comes out where it is not the truth; with a `reference`, the distance from it. The row holds within
+    /// `tolerance` of it, so that getting better is noticed as getting worse is.
+    pub seen: Option<f64>,
+    /// Range that the source itself gives for the truth, in place of `value` and `tolerance`.
     pub between: Option<[f64; 2]>,
+    /// Why another number than the truth is seen, or why there is no truth.
     pub because: Option<String>,
     /// How one number is made of a series: final unless given.
     pub statistic: Option<Statistic>,
     pub source: String,
     /// The one variant for which the expectation holds; all unless given, `none` for the scene without a variant.
     pub variant: Option<String>,
+}
+
+impl Expect {
+    /// What a relative tolerance is a fraction of, and 1 of one that is not; none where only the run knows.
+    pub fn unit(&self) -> Option<f64> {
+        match (self.relative, self.scale, self.value.or(self.seen)) {
+            (false, ..) => Some(1.0),
+            (true, Some(Scale::Number(scale)), _) => Some(scale),
+            (true, None, Some(value)) if self.reference.is_none() && value != 0.0 => Some(value.abs()),
+            _ => None,
+        }
+    }
+}
+
+/// What a row of the scene's expectations states.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Statement {
+    /// The truth comes out.
+    #[default]
+    Truth,
+    /// The method fails here as its source or theory says, and the scene is there to show it.
+    Failure,
+    /// The truth is known and this program misses it: an error of ours.
+    Shortfall,
+    /// No truth is at hand: what was seen is held.
+    Pinned,
+}
+
+/// What errors are a fraction of.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Scale {
+    Number(f64),
+    Word(ScaleWord),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ScaleWord {
+    /// Largest magnitude of the reference.
+    Peak,
+    /// Mean magnitude of the reference.
+    Mean,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

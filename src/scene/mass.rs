@@ -114,7 +114,7 @@ impl Scene {
 fn remedy(typed: &BodyTable, spacing: f64, dimension: usize) -> String {
     let fitted = "`packing = \"fitted\"` carries it exactly";
     let Shape::Block { min, max } = &typed.shape else { return fitted.into() };
-    if typed.packing != Packing::Square {
+    if typed.packing() != Packing::Square {
         return fitted.into();
     }
     let size = max.vector() - min.vector();

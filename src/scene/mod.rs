@@ -36,6 +36,7 @@ pub mod shape;
 mod state;
 pub mod strangers;
 pub mod study;
+mod surface;
 mod surfaces;
 mod ties;
 mod volume;

@@ -66,7 +66,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
     strangers::no_overlap(&file, &bodies, &particles, &apart, &refuse)?;
     let strangers = strangers::strangers(bodies.len(), &laws, &apart);
     let obstacles = parts.obstacles(&mut constraints)?;
-    let facets = parts.facets(&facet_pairs, &obstacles);
+    let facets = parts.facets(&facet_pairs, &obstacles)?;
     let mut scene = Scene {
         name,
         variant,
@@ -314,7 +314,7 @@ fn pack(file: &File, bodies: &[SceneBody], refuse: &Refuse) -> Result<Vec<Partic
     let mut particles = Vec::new();
     for (k, (typed, body)) in file.body.iter().zip(bodies).enumerate() {
         let anchor = typed.lattice_anchor(body.spacing, file.dimension);
-        let points = fill(&typed.shape, typed.packing, body.spacing, anchor, file.dimension)
+        let points = fill(&typed.shape, typed.packing(), body.spacing, anchor, file.dimension)
             .map_err(|message| refuse.at(&["body", &k.to_string(), "shape"], format!("body `{}`: {message}", body.name)))?;
         let center = typed.spin_center.as_ref().map_or(DVec3::ZERO, |c| c.vector());
         let axis = typed.spin_axis.as_ref().map_or(DVec3::Z, |a| a.vector().normalize_or_zero());

@@ -202,7 +202,9 @@ impl Scene {
         let spacing = self.bodies.iter().map(|b| b.spacing).fold(f64::INFINITY, f64::min);
         let q = self.facet_reach() / spacing;
         let face = [2.0, 2.0 * q, std::f64::consts::PI * q * q][self.dimension() - 1];
-        if q > 0.0 { (2.0 * face) as u32 + 16 } else { 0 }
+        let most = super::surface::pieces(&self.file, &self.bodies).into_iter().max().unwrap_or(1);
+        let parts = super::surface::to_a_cell(most, self.dimension());
+        if q > 0.0 { (2.0 * face * parts) as u32 + 16 } else { 0 }
     }
 
     /// A quarter of the square of the highest frequency that contact by surfaces gives a particle, in 1/time^2. The square of
@@ -255,7 +257,7 @@ impl Scene {
         };
         // Hexagonal packings are denser by 15 and 41 %.
         let packing = [1.0, 1.16, 1.42][self.dimension() - 1];
-        let square = self.file.body.iter().all(|b| b.packing == super::packing::Packing::Square);
+        let square = self.file.body.iter().all(|b| b.packing() == super::packing::Packing::Square);
         (inside * crowding * if square { 1.0 } else { packing }) as u32 + 16
     }
 

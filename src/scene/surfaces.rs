@@ -6,6 +6,7 @@ use super::file::{self, ObstacleShape, SurfaceGap};
 use super::groups::Group;
 use super::refuse::Refuse;
 use super::shape::{Coordinates, used};
+use super::surface::{MOST_PIECES, pieces, to_a_cell};
 use super::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 use crate::facet::full_weight;
 use crate::method::{Formulation, Gradient, Integrator};
@@ -29,6 +30,7 @@ impl Parts<'_> {
     pub fn gaps(&self) -> Result<Vec<Vec<FacetPair<f64>>>, String> {
         let bodies = self.bodies;
         let mut table = vec![vec![FacetPair::default(); bodies.len()]; bodies.len()];
+        let parts = pieces(self.file, bodies);
         for (k, contact) in self.file.contact.iter().enumerate() {
             let Some(gap) = &contact.gap else { continue };
             let at = k.to_string();
@@ -39,14 +41,14 @@ impl Parts<'_> {
             for (a, b) in touching {
                 let spacing = bodies[a].spacing.max(bodies[b].spacing);
                 let modulus = bodies[a].material.youngs_modulus().min(bodies[b].material.youngs_modulus());
-                let pair = FacetPair {
+                let seen_by = |other: usize| FacetPair {
                     // Each surface measures the other, so each has half the stiffness.
                     stiffness: 0.5 * gap.stiffness * modulus / spacing,
                     range: gap.range * spacing,
-                    full: full_weight(gap.range, self.file.dimension),
+                    full: full_weight(gap.range, self.file.dimension) * to_a_cell(parts[other], self.file.dimension),
                     friction: gap.friction,
                 };
-                (table[a][b], table[b][a]) = (pair, pair);
+                (table[a][b], table[b][a]) = (seen_by(b), seen_by(a));
             }
         }
         Ok(table)
@@ -219,15 +221,24 @@ impl Parts<'_> {
     }
 
     /// Facets of the bodies that touch something, in order of their owners; none on mirror planes, nor where a tied body goes on.
-    pub fn facets(&self, gaps: &[Vec<FacetPair<f64>>], obstacles: &[SceneObstacle]) -> Vec<SceneFacet> {
+    pub fn facets(&self, gaps: &[Vec<FacetPair<f64>>], obstacles: &[SceneObstacle]) -> Result<Vec<SceneFacet>, String> {
+        let parts = pieces(self.file, self.bodies);
         let mut list = Vec::new();
         for (k, (typed, body)) in self.file.body.iter().zip(self.bodies).enumerate() {
             let touches = gaps[k].iter().chain(obstacles.iter().map(|o| &o.pairs[k])).any(|pair| pair.stiffness > 0.0);
             if !touches {
                 continue;
             }
-            let anchor = typed.lattice_anchor(body.spacing, self.file.dimension);
-            let mut pieces = facets(&typed.shape, body.spacing, anchor, self.file.dimension);
+            let parts = parts[k];
+            let path = ["body", &k.to_string(), "facets"];
+            self.refuse.unless((1..=MOST_PIECES).contains(&parts), &path, || {
+                format!("facets must lie between 1 and {MOST_PIECES}, found {parts}")
+            })?;
+            let side = body.spacing / f64::from(parts);
+            // The cells of the smaller facets part those of the lattice.
+            let anchor = typed.lattice_anchor(body.spacing, self.file.dimension)
+                + used(DVec3::splat(0.5 * (side - body.spacing)), self.file.dimension);
+            let mut pieces = facets(&typed.shape, side, anchor, self.file.dimension);
             pieces.retain(|piece| !self.planes.iter().any(|plane| mirrored(plane, piece, body.spacing)));
             let tied = super::ties::of(self.coupling, k).map(|other| &self.file.body[other].shape).collect::<Vec<_>>();
             pieces.retain(|piece| {
@@ -243,7 +254,7 @@ impl Parts<'_> {
             list.extend(pieces.iter().zip(owners).map(|(&piece, owner)| SceneFacet { owner: numbers[owner as usize], piece }));
         }
         list.sort_by_key(|facet: &SceneFacet| facet.owner);
-        list
+        Ok(list)
     }
 }
 

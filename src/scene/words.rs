@@ -33,9 +33,10 @@ const CHOICES: [(&str, &str); 8] = [
 const SHAPE: &str = "a table such as `{ disc = { center = [0, 0], radius = 1 } }`";
 
 /// What belongs in values that may take more than one type, where serde only says that none fits.
-const UNTAGGED: [(&str, &str); 2] = [
+const UNTAGGED: [(&str, &str); 3] = [
     ("fixed", "true, false or a list of them, one for each axis"),
     ("velocity", "a list of numbers and \"free\", one for each axis"),
+    ("scale", "a number above 0, \"peak\" or \"mean\""),
 ];
 
 /// What belongs under `[study.accuracy]`; a path without its quotes makes a table.

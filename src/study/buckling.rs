@@ -10,8 +10,8 @@ pub use band::{Band, Factors};
 pub use path::{Path, Unknown};
 pub use tangent::Pattern;
 
-use crate::output::csv::Series;
-use crate::scene::Scene;
+use crate::output::{csv, durable};
+use crate::scene::{Particle, Scene};
 use crate::tensor::{Line, Plane, Solid, Space};
 use glam::DVec3;
 use std::path::Path as FilePath;
@@ -151,10 +151,10 @@ pub fn write_mode(scene: &Scene, found: &Buckling, path: &FilePath) -> Result<()
         std::fs::create_dir_all(folder).map_err(|e| format!("cannot write {}: {e}", folder.display()))?;
     }
     let header = ["number", "x", "y", "z", "mode_x", "mode_y", "mode_z"].map(String::from);
-    let mut table = Series::create(path, &header)?;
-    for (number, (particle, moved)) in scene.particles.iter().zip(&found.mode).enumerate() {
+    let row = |(number, (particle, moved)): (usize, (&Particle, &DVec3))| {
         let (x, v) = (particle.position, moved);
-        table.row(&[number as f64, x.x, x.y, x.z, v.x, v.y, v.z])?;
-    }
-    Ok(())
+        vec![number as f64, x.x, x.y, x.z, v.x, v.y, v.z]
+    };
+    let text = csv::text(&header, scene.particles.iter().zip(&found.mode).enumerate().map(row))?;
+    durable::put(path, &[text.as_bytes()])
 }

@@ -124,17 +124,22 @@ fn number(scene: &Scene, finished: &run::Finished, (_, name, statistic): &Column
 /// Rows of the file; makes it where there is none.
 fn begin(path: &Path, header: &str) -> Result<Vec<String>, String> {
     let place = |error: std::io::Error| format!("{}: {error}", path.display());
-    if let Ok(text) = std::fs::read_to_string(path) {
-        let mut lines = text.lines().map(str::to_string);
-        if lines.next().as_deref() == Some(header) {
-            return Ok(lines.collect());
+    match std::fs::read(path) {
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes);
+            let mut lines = text.lines().map(str::to_string);
+            if lines.next().as_deref() == Some(header) {
+                return Ok(lines.collect());
+            }
+            return Err(format!("{} is of another sweep, or none: name another file with --out", path.display()));
         }
-        return Err(format!("{} is of another sweep: name another file with --out", path.display()));
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(place(error)),
+        Err(_) => {}
     }
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(place)?;
     }
-    std::fs::write(path, format!("{header}\n")).map_err(place)?;
+    crate::output::durable::put(path, &[header.as_bytes(), b"\n"])?;
     Ok(Vec::new())
 }
 

@@ -23,6 +23,24 @@ fn laws_with_an_energy_keep_all_in_an_oblique_collision() {
     }
 }
 
+/// The bodies alone would let steps be twenty times longer than these contacts bear.
+#[test]
+fn potentials_far_stiffer_than_the_bodies_shorten_the_step_and_keep_the_energy() {
+    for (law, gap) in [
+        ("potential = { law = 'barrier', stiffness = 1000.0, range = 1.0 }", 1.0),
+        ("potential = { law = 'quadratic', stiffness = 1000.0, range = 2.0 }", 2.0),
+        ("potential = { law = 'power', stiffness = 1000.0, range = 2.0 }", 2.0),
+        ("potential = { law = 'repulsive', stiffness = 1000.0, range = 2.6 }", 2.6),
+    ] {
+        let change = collide(&discs(law, LAGRANGIAN, [gap, 5.0], 0.1), 120.0);
+        println!("{law}: energy {:.1e}, restitution {:.3}", change.energy, change.restitution);
+        // The touch is over between two looks at it.
+        assert!(change.restitution > 0.2, "{law}: they have not touched");
+        assert!(change.momentum < ROUNDING && change.spin.abs() < ROUNDING, "{law}");
+        assert!(change.energy.abs() < 0.01, "{law}: {}", change.energy);
+    }
+}
+
 /// In the Eulerian formulation the adjoint gradients keep angular momentum; its material has no energy to the last
 /// digit.
 #[test]

@@ -253,3 +253,39 @@ fn what_surfaces_cannot_do_is_refused_in_one_sentence() {
         assert!(error.contains(sentence) && error.starts_with("test:"), "{error}\nwanted {sentence}");
     }
 }
+
+/// Energy of a wedge pressed `depth` into a block, at `x` along its lattice: an obstacle, or a body that touches by a gap.
+fn pressed(tool: &str, x: f64, depth: f64, facets: &str) -> f64 {
+    let by = match tool {
+        "obstacle" => format!(
+            "[[obstacle]]\nname = 'wedge'\nshape = {{ cone = {{ apex = [{x}, {}], axis = [0, 1], half_angle = 45 }} }}",
+            -depth
+        ),
+        _ => format!(
+            "[[body]]\nname = 'wedge'\nmaterial = 'rubber'
+            shape = {{ polygon = {{ points = [[{x}, {}], [{}, {}], [{}, {}]] }} }}\n{facets}
+            [[contact]]\nbetween = ['block', 'wedge']\ngap = {{}}",
+            -depth,
+            x + 5.0,
+            5.0 - depth,
+            x - 5.0,
+            5.0 - depth
+        ),
+    };
+    contact_energy::<Plane<f64>>(&parse(&format!(
+        "title = 'wedge'\ndimension = 2\nspacing = 1.0\nduration = 1.0
+        [[body]]\nname = 'block'\nshape = {{ block = {{ min = [-8, -6], max = [8, 0] }} }}\nmaterial = 'rubber'\n{facets}\n{by}\n{RUBBER}"
+    )))
+}
+
+/// A facet is met at its middle: one to a spacing lets an edge in by half a spacing before it feels it.
+#[test]
+fn an_edge_is_felt_at_an_eighth_of_a_spacing_wherever_it_meets_the_lattice() {
+    for tool in ["obstacle", "body"] {
+        for x in [0.0, 0.13, 0.25, 0.37, 0.5] {
+            assert!(pressed(tool, x, 0.13, "") > 0.0, "{tool} at {x}");
+        }
+    }
+    let late = |facets| [0.0, 0.13].into_iter().any(|x| pressed("obstacle", x, 0.13, facets) == 0.0);
+    assert!(late("facets = 1") && !late("facets = 4"));
+}

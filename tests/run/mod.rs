@@ -2,6 +2,8 @@
 
 mod checkpoint;
 mod crossing;
+#[cfg(feature = "hdf5")]
+mod damage;
 mod fault;
 mod quasi_static;
 mod watch;

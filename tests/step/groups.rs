@@ -171,6 +171,8 @@ fn contact_between_groups_is_that_within_one() {
         file.body[0].material = "neo_hookean".into();
         let viscosity = |softening| Some(Viscosity { alpha: 0.0, beta: None, softening });
         file.formulation.viscosity = viscosity(0.01);
+        // The bound of a step knows the contacts between groups apart from each group's own stiffness.
+        file.time.step = Some(0.3);
         file.formulations.get_mut("rates").unwrap().viscosity = viscosity(if own == "apart" { 0.02 } else { 0.01 });
         Scene::from_file(file, "discs").unwrap()
     };

@@ -87,7 +87,7 @@ fn each_option_adds_its_own_fields_and_passes() {
         ),
         (
             &[TOUCH, "formulation.hourglass=0"],
-            &[Field::ListedDisplacement, Field::ContactCount, Field::Contacts, Field::ContactEnergy],
+            &[Field::ListedDisplacement, Field::ContactCount, Field::Contacts, Field::ContactRate, Field::ContactEnergy],
             &[Pass::FindContacts, Pass::ContactForce],
         ),
     ];

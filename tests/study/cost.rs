@@ -15,6 +15,8 @@ fn a_scene_tells_the_fields_and_shaders_it_pays_for() {
     assert!(cell("cpu_seconds_per_step").parse::<f64>().unwrap() > 0.0 && !cell("field_names").contains("smoothed_velocity"));
     let more = sandbox.lithosph(&["study", "cost", "bar.toml", "--set", "formulation.xsph=0.5", "--show"]);
     assert!(more.out.contains("smoothed_velocity: 1 x Particle") && more.out.contains("// smooth_velocity"), "{more:?}");
-    let nowhere = sandbox.lithosph(&["study", "cost"]);
+    let refused = sandbox.lithosph(&["study", "cost", "bar.toml"]);
+    assert!(refused.code == Some(2) && refused.err.contains("--force overwrites it"), "{refused:?}");
+    let nowhere = sandbox.lithosph(&["study", "cost", "--force"]);
     assert!(nowhere.code == Some(2) && nowhere.err.contains("name scenes"), "{nowhere:?}");
 }

@@ -213,7 +213,7 @@ impl Gpu {
     }
 
     /// The clocks of all members; the last tells how far the run is.
-    fn clocks(&self) -> Result<Vec<&Buffer>, String> {
+    fn clock_buffers(&self) -> Result<Vec<&Buffer>, String> {
         self.members.iter().map(|member| member.tables.get("clock").map(|table| &table.buffer)).collect()
     }
 
@@ -269,7 +269,7 @@ impl Gpu {
         let actions = planned(&self.link, &mut self.members, &acts)?;
         let running = |value: u32| {
             let place = offset_of!(Clock<f32>, running) as u64;
-            for clock in self.clocks()? {
+            for clock in self.clock_buffers()? {
                 self.link.queue.write_buffer(clock, place, &value.to_ne_bytes());
             }
             Ok::<(), String>(())
@@ -281,7 +281,7 @@ impl Gpu {
 
     fn read_clock(&self) -> Result<Clock<f64>, String> {
         let mut encoder = self.link.encoder();
-        let clocks = self.clocks()?;
+        let clocks = self.clock_buffers()?;
         encoder.copy_buffer_to_buffer(clocks[clocks.len() - 1], 0, &self.clock, 0, CLOCK_BYTES);
         self.link.submit(encoder)?;
         let seen: Clock<f32> = self.link.map(&self.clock, CLOCK_BYTES, pod_read_unaligned)?;
@@ -293,7 +293,7 @@ impl Gpu {
         let (start, duration) = (start as f32, duration as f32);
         let clock = Clock { start, duration, steps_left: steps, running: 1, rebuild: 1, ..Clock::default() };
         let bytes = bytes_of(&clock);
-        for buffer in self.clocks()? {
+        for buffer in self.clock_buffers()? {
             let write = |begin: usize, end: usize| {
                 self.link.queue.write_buffer(buffer, begin as u64, &bytes[begin..end]);
             };
@@ -409,12 +409,18 @@ impl Backend for Gpu {
         Ok(())
     }
 
-    fn set_steps_done(&mut self, steps: u32) {
-        self.pace.steps_done = steps;
-        let place = offset_of!(Clock<f32>, steps_done) as u64;
-        for clock in self.clocks().unwrap_or_default() {
-            self.link.queue.write_buffer(clock, place, &steps.to_ne_bytes());
+    fn clocks(&mut self) -> Result<Vec<Clock<f64>>, String> {
+        let wanted: Vec<_> = self.clock_buffers()?.into_iter().map(|buffer| (buffer, CLOCK_BYTES)).collect();
+        let clock = |bytes: Vec<u8>| pod_read_unaligned::<Clock<f32>>(&bytes[..size_of::<Clock<f32>>()]).to_f64();
+        Ok(self.link.read(&wanted)?.into_iter().map(clock).collect())
+    }
+
+    fn set_clocks(&mut self, clocks: &[Clock<f64>]) -> Result<(), String> {
+        self.pace.steps_done = clocks.last().map_or(0, |clock| clock.steps_done);
+        for (buffer, clock) in self.clock_buffers()?.into_iter().zip(clocks) {
+            self.link.queue.write_buffer(buffer, 0, bytes_of(&Clock::<f32>::of(clock)));
         }
+        self.link.check()
     }
 
     fn time_passes(&mut self, calls: &[Call], repeats: u32) -> Result<Vec<(String, f64)>, String> {

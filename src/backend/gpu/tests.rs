@@ -212,7 +212,7 @@ fn segments_end_on_time_and_keep_their_counts() {
     gpu.begin_segment(7.0, 1e9, 3, false).unwrap();
     let clock = gpu.advance().unwrap();
     assert_eq!((clock.elapsed, clock.steps_done, clock.steps_left, clock.running), (0.375, 19, 0, 0));
-    gpu.set_steps_done(100);
+    gpu.set_clocks(&[Clock { steps_done: 100, ..Clock::default() }]).unwrap();
     gpu.begin_segment(7.0, 0.25, 3, false).unwrap();
     assert_eq!(gpu.advance().unwrap().steps_done, 102);
 }

@@ -7,7 +7,7 @@ pub(super) fn text(potentials: &[Potential]) -> String {
     let Some((&last, others)) = potentials.split_last() else { return String::new() };
     let call = |law: Potential| format!("return potential_{}(q, pair.exponent);", law.name());
     let mut text: String = potentials.iter().map(|law| law.source()).collect();
-    text += "\n// phi and -phi' at q = r/range.\nfn potential(pair: ContactPair, q: real) -> vec2<real> {\n";
+    text += "\n// phi, -phi' and phi'' at q = r/range.\nfn potential(pair: ContactPair, q: real) -> vec3<real> {\n";
     // Some case must be the default.
     if others.is_empty() {
         return text + &format!("    {}\n}}\n", call(last));

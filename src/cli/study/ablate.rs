@@ -2,6 +2,7 @@
 
 use super::place::PlaceWord;
 use crate::cli::say::say;
+use crate::complain::complain;
 use crate::run::Stop;
 use crate::study::ablate;
 use crate::study::accuracy::parse_error;
@@ -49,7 +50,7 @@ pub fn ablate(args: &AblateArgs) -> Result<i32, Stop> {
     let visible = std::io::stderr().is_terminal();
     let tell = |line: &str| {
         if visible {
-            eprintln!("{line}");
+            complain(line);
         }
     };
     let found = study.run(tell)?;

@@ -1,7 +1,9 @@
 //! Words of `lithosph study cost`.
 
 use super::place::PlaceWord;
+use super::refuse_existing;
 use crate::cli::say::say;
+use crate::complain::complain;
 use crate::run::Stop;
 use crate::study::cost;
 use clap::Args;
@@ -27,6 +29,9 @@ pub struct CostArgs {
     /// The CSV; out/study/cost.csv unless given. A chart and a page lie beside it.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Overwrite the CSV, and what lies beside it.
+    #[arg(long)]
+    force: bool,
 }
 
 pub fn cost(args: &CostArgs) -> Result<i32, Stop> {
@@ -36,6 +41,7 @@ pub fn cost(args: &CostArgs) -> Result<i32, Stop> {
         }
         return Ok(0);
     }
+    refuse_existing(&args.out.clone().unwrap_or_else(|| "out/study/cost.csv".into()), args.force)?;
     let request = cost::Request {
         scenes: args.scenes.clone(),
         variant: args.variant.clone(),
@@ -47,7 +53,7 @@ pub fn cost(args: &CostArgs) -> Result<i32, Stop> {
     let visible = std::io::stderr().is_terminal();
     let tell = |row: &cost::Row| {
         if visible {
-            eprintln!("{}: {} particles", row.scene, row.particles);
+            complain(&format!("{}: {} particles", row.scene, row.particles));
         }
     };
     let (text, holds) = cost::run(&request, tell)?;

@@ -2,6 +2,7 @@
 
 use super::place::PlaceWord;
 use crate::cli::say::say;
+use crate::complain::complain;
 use crate::run::Stop;
 use crate::study::sweep;
 use clap::Args;
@@ -36,7 +37,7 @@ pub fn sweep(args: &SweepArgs) -> Result<i32, Stop> {
         choice: args.backend.choice(),
         out: args.out.clone(),
     };
-    let text = sweep::run(&request, |row| eprintln!("{row}"))?;
+    let text = sweep::run(&request, complain)?;
     say(&text);
     Ok(0)
 }

@@ -1,6 +1,7 @@
 //! Words of `lithosph study tensile`.
 
 use crate::cli::say::say;
+use crate::complain::complain;
 use crate::run::Stop;
 use crate::study::tensile::{self, Part};
 use clap::Args;
@@ -21,7 +22,7 @@ pub fn tensile(args: &TensileArgs) -> Result<i32, Stop> {
     let request = tensile::Request { parts: args.parts.clone(), out: args.out.clone() };
     say(&tensile::study(&request, &|what| {
         if std::io::stderr().is_terminal() {
-            eprintln!("{what}");
+            complain(what);
         }
     })?);
     Ok(0)

@@ -1,89 +1,165 @@
-//! The groups and datasets of a new file, all of them empty.
+//! The groups and datasets of a frame, which holds its particles, and of the master, which refers to those of all frames.
 
-use super::super::Snapshot;
+use super::super::memory_file::group;
+use super::super::{Column, Snapshot};
+use super::{Kept, frame_name, put};
 use hdf5::types::{FixedAscii, VarLenUnicode};
-use hdf5::{Dataset, Group, H5Type, Location};
-use std::path::Path;
+use hdf5::{Dataset, File, Group, H5Type, Location};
 
 /// Rows of a chunk at most: small enough to read one particle range, large enough to compress.
 const CHUNK_ROWS: usize = 65_536;
-/// Rows of a chunk of per-step numbers.
-const CHUNK_STEPS: usize = 256;
 
-pub fn lay_out(path: &Path, snapshot: &Snapshot) -> hdf5::Result<()> {
-    let file = super::options().create(path)?;
-    let count = snapshot.positions.len();
-    let root = file.create_group("VTKHDF")?;
+/// What all frames of a run have in common.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    pub particles: usize,
+    pub dimension: usize,
+    pub spacing: f64,
+    /// Name, unit and components of each column.
+    pub columns: Vec<(String, String, usize)>,
+}
+
+impl Shape {
+    pub fn of(snapshot: &Snapshot) -> Self {
+        let column = |column: &Column| (column.name.clone(), column.unit.clone(), column.components);
+        Self {
+            particles: snapshot.positions.len(),
+            dimension: snapshot.dimension,
+            spacing: snapshot.spacing,
+            columns: snapshot.columns.iter().map(column).collect(),
+        }
+    }
+}
+
+/// The particles of one moment: a temporal file of one step.
+pub fn frame(file: &File, snapshot: &Snapshot) -> hdf5::Result<()> {
+    let (shape, count) = (Shape::of(snapshot), snapshot.positions.len());
+    let root = head(file, &shape)?;
+    let identity: Vec<i64> = (0..count as i64).collect();
+    put(&rows::<i64>(&group(&root, "Vertices")?, "Connectivity", count, 1)?, 1, &identity)?;
+    let points: Vec<f64> = snapshot.positions.iter().flatten().copied().collect();
+    put(&rows::<f32>(&root, "Points", count, 3)?, 3, &each(&points, |v| v as f32))?;
+    let point_data = group(&root, "PointData")?;
+    for Column { name, unit, components, values } in &snapshot.columns {
+        let dataset = if is_number(name) {
+            let dataset = rows::<i32>(&point_data, name, count, *components)?;
+            put(&dataset, *components, &each(values, |v| v.round() as i32)).map(|()| dataset)
+        } else {
+            let dataset = rows::<f32>(&point_data, name, count, *components)?;
+            put(&dataset, *components, &each(values, |v| v as f32)).map(|()| dataset)
+        }?;
+        attribute(&dataset, "unit", &unicode(unit)?)?;
+    }
+    steps(file, &root, &shape, &[Kept { number: 0, time: snapshot.time, step: snapshot.step }])
+}
+
+/// All frames as one temporal file, whose particles lie in the frames' own files.
+pub fn master(file: &File, shape: &Shape, kept: &[Kept]) -> hdf5::Result<()> {
+    let root = head(file, shape)?;
+    let first = &kept[..1.min(kept.len())];
+    // One poly-vertex cell serves all steps.
+    referred::<i64>(&group(&root, "Vertices")?, "Vertices/Connectivity", shape.particles, 1, first)?;
+    referred::<f32>(&root, "Points", shape.particles, 3, kept)?;
+    let point_data = group(&root, "PointData")?;
+    for (name, unit, components) in &shape.columns {
+        let place = format!("PointData/{name}");
+        let dataset = if is_number(name) {
+            referred::<i32>(&point_data, &place, shape.particles, *components, kept)?
+        } else {
+            referred::<f32>(&point_data, &place, shape.particles, *components, kept)?
+        };
+        attribute(&dataset, "unit", &unicode(unit)?)?;
+    }
+    steps(file, &root, shape, kept)?;
+    let numbers: Vec<i64> = kept.iter().map(|kept| i64::from(kept.number)).collect();
+    series(&file.group("lithosph")?, "frame", &numbers).map(|_| ())
+}
+
+fn head(file: &File, shape: &Shape) -> hdf5::Result<Group> {
+    let root = group(file, "VTKHDF")?;
     root.new_attr_builder().with_data(&[2i64, 1]).create("Version")?;
     attribute(&root, "Type", &FixedAscii::<8>::from_ascii("PolyData").map_err(|e| e.to_string())?)?;
-    lay_out_cells(&root, count)?;
-
-    rows::<f32>(&root, "Points", count, 3)?;
-    let point_data = root.create_group("PointData")?;
-    for column in &snapshot.columns {
-        let dataset = if is_number(&column.name) {
-            rows::<i32>(&point_data, &column.name, count, column.components)?
-        } else {
-            rows::<f32>(&point_data, &column.name, count, column.components)?
-        };
-        attribute(&dataset, "unit", &unicode(&column.unit)?)?;
-    }
-    lay_out_steps(&root, snapshot)?;
-
-    let own = file.create_group("lithosph")?;
-    attribute(&own, "dimension", &(snapshot.dimension as i64))?;
-    attribute(&own, "spacing", &snapshot.spacing)?;
-    series::<i64>(&own, "step", 1)?;
-    file.close()
+    let own = group(file, "lithosph")?;
+    attribute(&own, "dimension", &(shape.dimension as i64))?;
+    attribute(&own, "spacing", &shape.spacing)?;
+    Ok(root)
 }
 
-/// One poly-vertex cell, stored once for all steps; the other kinds of cell are empty.
-fn lay_out_cells(root: &Group, count: usize) -> hdf5::Result<()> {
+/// Everything with one row a step, and cells: one poly-vertex, stored once for all steps; the other kinds of cell are empty.
+fn steps(file: &File, root: &Group, shape: &Shape, kept: &[Kept]) -> hdf5::Result<()> {
+    let (count, particles) = (kept.len(), shape.particles as i64);
+    let all = |value: i64| vec![value; count];
+    let numbered = |times: i64| (0..count as i64).map(|k| k * times).collect::<Vec<_>>();
     for kind in ["Vertices", "Lines", "Polygons", "Strips"] {
-        let group = root.create_group(kind)?;
-        let used = if kind == "Vertices" { count as i64 } else { 0 };
-        let connectivity: Vec<i64> = (0..used).collect();
-        let offsets = if used > 0 { vec![0, used] } else { vec![0] };
-        group.new_dataset_builder().with_data(&connectivity[..]).create("Connectivity")?;
-        group.new_dataset_builder().with_data(&offsets[..]).create("Offsets")?;
-        series::<i64>(&group, "NumberOfCells", 1)?;
-        series::<i64>(&group, "NumberOfConnectivityIds", 1)?;
+        let used = i64::from(kind == "Vertices");
+        let cells = if used > 0 { root.group(kind)? } else { group(root, kind)? };
+        if used == 0 {
+            series::<i64>(&cells, "Connectivity", &[])?;
+        }
+        series(&cells, "Offsets", &[0, particles][..1 + used as usize])?;
+        series(&cells, "NumberOfCells", &all(used))?;
+        series(&cells, "NumberOfConnectivityIds", &all(used * particles))?;
     }
-    series::<i64>(root, "NumberOfPoints", 1).map(|_| ())
-}
-
-fn lay_out_steps(root: &Group, snapshot: &Snapshot) -> hdf5::Result<()> {
-    let steps = root.create_group("Steps")?;
-    attribute(&steps, "NSteps", &0i64)?;
-    series::<f64>(&steps, "Values", 1)?;
-    for name in ["PartOffsets", "NumberOfParts", "PointOffsets"] {
-        series::<i64>(&steps, name, 1)?;
-    }
+    series(root, "NumberOfPoints", &all(particles))?;
+    let steps = group(root, "Steps")?;
+    attribute(&steps, "NSteps", &(count as i64))?;
+    series(&steps, "Values", &kept.iter().map(|kept| kept.time).collect::<Vec<_>>())?;
+    series(&steps, "PartOffsets", &numbered(1))?;
+    series(&steps, "NumberOfParts", &all(1))?;
+    series(&steps, "PointOffsets", &numbered(particles))?;
     // One number for each of vertices, lines, polygons and strips.
-    series::<i64>(&steps, "CellOffsets", 4)?;
-    series::<i64>(&steps, "ConnectivityIdOffsets", 4)?;
-    let offsets = steps.create_group("PointDataOffsets")?;
-    snapshot.columns.iter().try_for_each(|column| series::<i64>(&offsets, &column.name, 1).map(|_| ()))
+    for name in ["CellOffsets", "ConnectivityIdOffsets"] {
+        let dataset = steps.new_dataset::<i64>().obj_track_times(false).shape((count, 4)).create(name)?;
+        put(&dataset, 4, &vec![0i64; 4 * count])?;
+    }
+    let offsets = group(&steps, "PointDataOffsets")?;
+    for (name, ..) in &shape.columns {
+        series(&offsets, name, &numbered(particles))?;
+    }
+    series(&file.group("lithosph")?, "step", &kept.iter().map(|kept| kept.step as i64).collect::<Vec<_>>())?;
+    Ok(())
 }
 
-/// A compressed dataset of particles, empty yet, that grows by whole steps.
+/// A compressed dataset of particles, whose checksums let every reader notice a bit that was flipped.
 fn rows<T: H5Type>(group: &Group, name: &str, count: usize, components: usize) -> hdf5::Result<Dataset> {
-    // Equal chunks that fill a step to within a row keep one step from rewriting the last one.
-    let chunk = count.div_ceil(count.div_ceil(CHUNK_ROWS)).max(256);
-    let builder = group.new_dataset::<T>().shuffle().deflate(1);
+    let chunk = count.div_ceil(count.div_ceil(CHUNK_ROWS));
+    let builder = group.new_dataset::<T>().obj_track_times(false).shuffle().deflate(1).fletcher32();
     match components {
-        1 => builder.chunk((chunk,)).shape((0..,)).create(name),
-        _ => builder.chunk((chunk, components)).shape((0.., components)).create(name),
+        1 => builder.chunk((chunk,)).shape((count,)).create(name),
+        _ => builder.chunk((chunk, components)).shape((count, components)).create(name),
     }
 }
 
-/// A dataset with one row a step, empty yet.
-fn series<T: H5Type>(group: &Group, name: &str, components: usize) -> hdf5::Result<Dataset> {
-    let builder = group.new_dataset::<T>();
-    match components {
-        1 => builder.chunk((CHUNK_STEPS,)).shape((0..,)).create(name),
-        _ => builder.chunk((CHUNK_STEPS, components)).shape((0.., components)).create(name),
+/// A dataset that holds the rows of all frames one after the other, each in its own file. `place` is where it lies in
+/// `VTKHDF`, of which `group` is the last group.
+fn referred<T: H5Type>(group: &Group, place: &str, count: usize, components: usize, kept: &[Kept]) -> hdf5::Result<Dataset> {
+    let (total, source) = (kept.len() * count, format!("VTKHDF/{place}"));
+    let mut builder = group.new_dataset::<T>().obj_track_times(false);
+    for (k, frame) in kept.iter().enumerate() {
+        let (name, rows) = (frame_name(frame.number), k * count..(k + 1) * count);
+        builder = match components {
+            1 => builder.virtual_map(name, &source, (count,), 0..count, (total,), rows),
+            _ => builder.virtual_map(name, &source, (count, components), (0..count, ..), (total, components), (rows, ..)),
+        };
     }
+    let name = place.rsplit('/').next().unwrap_or(place);
+    match components {
+        1 => builder.shape((total,)).create(name),
+        _ => builder.shape((total, components)).create(name),
+    }
+}
+
+/// A dataset of a few numbers.
+fn series<T: H5Type>(group: &Group, name: &str, values: &[T]) -> hdf5::Result<Dataset> {
+    let dataset = group.new_dataset::<T>().obj_track_times(false).shape((values.len(),)).create(name)?;
+    if !values.is_empty() {
+        dataset.write_raw(values)?;
+    }
+    Ok(dataset)
+}
+
+fn each<T>(values: &[f64], converted: impl Fn(f64) -> T) -> Vec<T> {
+    values.iter().map(|&value| converted(value)).collect()
 }
 
 fn attribute<T: H5Type>(location: &Location, name: &str, value: &T) -> hdf5::Result<()> {

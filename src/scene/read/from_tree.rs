@@ -29,6 +29,7 @@ pub(super) fn deserialize(root: &Node, name: &str) -> Result<File, String> {
         (None, _) => root.names("formulation").contains(&"kind"),
         (Some(formulation), named) => named.is_some_and(|named| named.names(formulation).contains(&"kind")),
     });
+    file.settle_packings();
     Ok(file)
 }
 

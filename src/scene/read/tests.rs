@@ -103,8 +103,8 @@ fn unknown_keys_and_words_are_refused_with_the_nearest() {
         (
             "norm =",
             "no =",
-            "38: unknown key `no` in `expect.energy`, expected `value`, `tolerance`, \
-          `relative`, `reference`, `columns`, `norm`, `between`, `because`, `statistic`, `source` or `variant`",
+            "38: unknown key `no` in `expect.energy`, expected `kind`, `value`, `tolerance`, \
+          `relative`, `scale`, `reference`, `columns`, `norm`, `seen`, `between`, `because`, `statistic`, `source` or `variant`",
         ),
         (
             "norm =",

@@ -77,7 +77,10 @@ impl Judge {
             // What has no truth is held to the whole scene's.
             (None, false) => {
                 let whole = self.whole.errors[EXPECTED * k]?;
-                let width = expected.expect.between.map_or(0.0, |[low, high]| 0.5 * (high - low));
+                let width = match (expected.expect.between, expected.expect.seen) {
+                    (Some([low, high]), _) => 0.5 * (high - low),
+                    (None, seen) => seen.map_or(0.0, f64::abs),
+                };
                 let gap = (number - whole).abs();
                 Some(if gap == 0.0 { 0.0 } else { gap / (allowed * whole.abs().max(width)) })
             }

@@ -28,13 +28,22 @@ impl Expected {
         self.expect.value.is_some() || self.expect.reference.is_some()
     }
 
-    /// The number over what is tolerated: 1 is just good. In a range, the distance from its middle.
+    /// The number over what is tolerated: 1 is just good. In a range, the distance from its middle; of a known error, what the
+    /// scene allows it to be at most.
     pub fn score(&self, number: f64) -> f64 {
         let share = |gap: f64, allowed: f64| if gap == 0.0 { 0.0 } else { gap / allowed };
-        match (self.expect.between, self.expect.tolerance) {
+        let tolerance = self.expect.tolerance.unwrap_or(0.0);
+        match (self.expect.between, self.expect.seen) {
             (Some([low, high]), _) => share((number - 0.5 * (low + high)).abs(), 0.5 * (high - low)),
-            (None, tolerance) => share(number.abs(), tolerance.unwrap_or(0.0)),
+            (None, Some(seen)) if !self.is_error() => share((number - seen).abs(), tolerance * self.expect.unit().unwrap_or(1.0)),
+            (None, Some(seen)) => share(number.abs(), self.known_error(seen) + tolerance),
+            (None, None) => share(number.abs(), tolerance),
         }
+    }
+
+    /// The error of what is seen, in the unit of the tolerance.
+    fn known_error(&self, seen: f64) -> f64 {
+        self.expect.value.map_or(seen.abs(), |value| (seen - value).abs() / self.expect.unit().unwrap_or(1.0))
     }
 
     /// The same expectation with its error as a fraction, where it has a scale of its own.
@@ -217,6 +226,16 @@ mod tests {
 
     fn expected(between: Option<[f64; 2]>, tolerance: Option<f64>) -> Expected {
         Expected { name: "e".into(), expect: Expect { between, tolerance, ..Expect::default() } }
+    }
+
+    #[test]
+    fn a_known_error_may_be_as_large_as_it_is_known() {
+        let of = |value, seen, tolerance| Expected {
+            name: "e".into(),
+            expect: Expect { value, seen: Some(seen), tolerance: Some(tolerance), ..Expect::default() },
+        };
+        assert_eq!(of(Some(1.0), 0.5, 0.25).score(0.75), 1.0);
+        assert_eq!(of(None, 4.0, 2.0).score(6.0), 1.0);
     }
 
     #[test]

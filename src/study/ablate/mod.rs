@@ -59,7 +59,7 @@ impl Study {
         let source = Source::new(request.scene.clone(), request.variant.clone())?;
         let scene = source.open(&request.set)?;
         scene.one_formulation("study ablate")?;
-        check::references(&scene, source.folder())?;
+        check::references(&scene.file, source.folder())?;
         let (expected, observed) = (measure::expected(&scene), measure::observed(&scene));
         if expected.is_empty() && (request.error.is_none() || observed.is_empty()) {
             return Err(format!(

@@ -4,7 +4,7 @@
 use super::piece::{Piece, Sort, without};
 use super::uniform::{alike, along, flattened, span};
 use crate::scene::Scene;
-use crate::scene::file::{Axis, BodyTable, Boundary, Expect, File, Fixed, Motion, Observe, ObstacleShape};
+use crate::scene::file::{Axis, BodyTable, Boundary, Expect, File, Fixed, Motion, Observe, ObstacleShape, Scale};
 use crate::scene::shape::Coordinates;
 
 /// Kinds of observables that are sums over particles, and so in proportion to the length of the axis.
@@ -36,7 +36,12 @@ pub fn per_width(expect: &Expect, width: f64) -> Expect {
     let tolerance = if expect.relative { expect.tolerance } else { over(expect.tolerance) };
     Expect {
         value: over(expect.value),
+        seen: over(expect.seen),
         tolerance,
+        scale: match expect.scale {
+            Some(Scale::Number(scale)) => Some(Scale::Number(scale / width)),
+            word => word,
+        },
         between: expect.between.map(|range| range.map(|end| end / width)),
         ..expect.clone()
     }

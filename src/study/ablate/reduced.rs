@@ -62,7 +62,7 @@ fn coarser(file: &File) -> Piece {
 fn block(file: &File, body: &BodyTable) -> Option<(Vec<f64>, Vec<f64>, f64)> {
     let Shape::Block { min, max } = &body.shape else { return None };
     let axes = |corner: &crate::scene::shape::Coordinates| corner.vector().to_array()[..file.dimension].to_vec();
-    let square = matches!(body.packing, Packing::Square);
+    let square = body.packing() == Packing::Square;
     square.then(|| (axes(min), axes(max), body.spacing.unwrap_or(file.spacing)))
 }
 

@@ -2,7 +2,7 @@
 
 use super::measure::series;
 use crate::observable::Table;
-use crate::output::csv;
+use crate::output::{csv, durable};
 use crate::run::Finished;
 use std::path::Path;
 
@@ -22,12 +22,9 @@ pub fn table(finished: &Finished) -> Table {
 pub fn write(path: &Path, finished: &Finished) -> Result<(), String> {
     let table = table(finished);
     let names: Vec<String> = std::iter::once("time").chain(table.columns.keys().map(String::as_str)).map(String::from).collect();
-    let mut file = csv::Series::create(path, &names)?;
-    for (k, &time) in table.times.iter().enumerate() {
-        let row: Vec<f64> = std::iter::once(time).chain(table.columns.values().map(|column| column[k])).collect();
-        file.row(&row)?;
-    }
-    Ok(())
+    let row = |(k, &time): (usize, &f64)| std::iter::once(time).chain(table.columns.values().map(|column| column[k])).collect();
+    let text = csv::text(&names, table.times.iter().enumerate().map(row))?;
+    durable::put(path, &[text.as_bytes()])
 }
 
 /// # Errors

@@ -8,7 +8,7 @@ use crate::check;
 use crate::observable::{KINDS, Value};
 use crate::run::Finished;
 use crate::scene::Scene;
-use crate::scene::file::{Expect, Norm};
+use crate::scene::file::{Expect, Norm, Statement};
 use crate::scene::read::hint;
 use std::path::Path;
 
@@ -151,7 +151,9 @@ fn measurable(expect: &Expect) -> bool {
 
 fn expected(scene: &Scene) -> Result<Vec<Expected>, String> {
     let known = scene.file.expect.iter().filter(|(_, expect)| check::applies(scene, expect) && measurable(expect));
-    let expected = |(name, expect): (&String, &Expect)| Expected { name: name.clone(), tolerance: expect.tolerance };
+    // Of a known error the tolerance bounds its change, not itself.
+    let bound = |expect: &Expect| expect.tolerance.filter(|_| expect.kind == Statement::Truth);
+    let expected = |(name, expect): (&String, &Expect)| Expected { name: name.clone(), tolerance: bound(expect) };
     let all: Vec<Expected> = known.map(expected).collect();
     match all.is_empty() {
         true => Err(format!("{} expects no value and names no reference, so that there is no error", scene.label())),

@@ -99,7 +99,7 @@ impl Study {
             None => scene.clone(),
         };
         let measures = Measures::new(&base, request.observable.as_deref(), request.kind)?;
-        check::references(&base, source.folder())?;
+        check::references(&base.file, source.folder())?;
         if request.backends.iter().any(|choice| matches!(choice, Choice::Gpu(_))) {
             device::choose(device::Want::Gpu, None)?;
         }

@@ -4,6 +4,7 @@ use super::front::{Best, best, cheapest};
 use super::measure::{Measures, brief};
 use super::names::Names;
 use super::row::{Cost, OK, Row};
+use crate::complain::complain;
 use indicatif::HumanDuration;
 use std::io::IsTerminal;
 use std::time::Instant;
@@ -32,7 +33,7 @@ impl Progress {
         let left = self.begin.elapsed() / self.ran * (self.total - self.done) as u32;
         let cost = row.cost_of(Cost::CpuSeconds).map_or_else(String::new, |seconds| format!(", {seconds:.2} s"));
         let (done, total, status) = (self.done, self.total, &row.status);
-        eprintln!("{done}/{total}  {}: {status}{cost}; {} left", row.key.join(", "), HumanDuration(left));
+        complain(&format!("{done}/{total}  {}: {status}{cost}; {} left", row.key.join(", "), HumanDuration(left)));
     }
 }
 

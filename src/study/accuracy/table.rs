@@ -69,7 +69,7 @@ impl Table {
         refuse_other_runs(path, &rows, wanted)?;
         if fresh {
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
-            std::fs::write(path, header.text()).map_err(failed)?;
+            crate::output::durable::put(path, &[header.text().as_bytes()])?;
         }
         let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
         if !fresh {

@@ -107,6 +107,7 @@ impl Side {
             force: true,
             quiet: true,
             energy: Options::UNWATCHED,
+            ..Options::default()
         };
         let stopped = match run::run_on(&scene, &options, self.machine.open(&scene)) {
             Ok(_) => None,

@@ -55,11 +55,9 @@ impl Table {
         self.records.retain(|other| other.row.name != record.row.name);
         self.records.push(record);
         self.records.sort_by_key(|record| rows::ROWS.iter().position(|row| row.name == record.row.name));
-        let failed = |error: std::io::Error| format!("cannot write {}: {error}", self.path.display());
         let lines = self.records.iter().map(|record| line(&record.cells()) + "\n");
         let text: String = std::iter::once(header()).chain(lines).collect();
-        let part = self.path.with_extension("csv.part");
-        std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &self.path)).map_err(failed)
+        crate::output::durable::put(&self.path, &[text.as_bytes()])
     }
 
     /// The rows that were asked for, side by side.

@@ -91,7 +91,7 @@ impl Picture {
         // Not `with_extension`: a stem may have a dot of its own.
         let file = |end: &str| stem.with_file_name(format!("{}.{end}", stem.file_name().unwrap_or_default().display()));
         let path = file("svg");
-        std::fs::write(&path, svg).map_err(|error| format!("{}: {error}", path.display()))?;
+        crate::output::durable::put(&path, &[svg.as_bytes()])?;
         crate::output::save_png(&file("png"), &image)
     }
 

@@ -61,9 +61,7 @@ impl Page {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(place)?;
         }
-        let part = path.with_file_name(format!("{}.part", path.file_name().unwrap_or_default().display()));
-        std::fs::write(&part, text).map_err(place)?;
-        std::fs::rename(&part, path).map_err(place)
+        crate::output::durable::put(path, &[text.as_bytes()])
     }
 
     /// # Errors

@@ -107,7 +107,7 @@ pub fn write(path: &Path, rows: &[Row], choice: &Choice) -> Result<(), String> {
         text += &(line(&cells) + "\n");
     }
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
-    std::fs::write(path, text).map_err(failed)
+    crate::output::durable::put(path, &[text.as_bytes()])
 }
 
 fn backend(choice: &Choice) -> &'static str {

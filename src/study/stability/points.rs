@@ -79,7 +79,7 @@ impl Runs {
             std::fs::create_dir_all(folder).map_err(failed)?;
         }
         let kept = if rows.is_empty() { header.as_str() } else { &text[..whole] };
-        std::fs::write(path, kept).map_err(failed)?;
+        crate::output::durable::put(path, &[kept.as_bytes()])?;
         Ok(Self { path: path.into(), rows })
     }
 

@@ -212,7 +212,7 @@ fn lattice_file(scene: &Scene) -> File {
     let body = &mut file.body[0];
     // A node of the lattice is the origin, about which the blocks of particles are counted.
     let origin = Some(Coordinates::from([0.0; 3]));
-    (body.copies, body.packing, body.spacing, body.anchor) = (None, Packing::Square, None, origin);
+    (body.copies, body.packing, body.spacing, body.anchor) = (None, Some(Packing::Square), None, origin);
     (body.velocity, body.spin, body.motion, body.flaw) = (None, 0.0, None, None);
     file.spacing = scene.bodies[0].spacing;
     let material = body.material.clone();

@@ -178,5 +178,5 @@ fn write(path: &Path, rows: &[Vec<String>]) -> Result<(), String> {
         std::fs::create_dir_all(folder).map_err(place)?;
     }
     let text: String = rows.iter().map(|row| line(row) + "\n").collect();
-    std::fs::write(path, text).map_err(place)
+    crate::output::durable::put(path, &[text.as_bytes()])
 }

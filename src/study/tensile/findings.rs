@@ -84,7 +84,7 @@ pub fn write_csv(table: &Table, path: &Path) -> Result<(), String> {
     };
     let line = |cells: &Vec<String>| cells.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
     let text: String = std::iter::once(&table.columns).chain(&table.rows).map(line).collect();
-    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+    crate::output::durable::put(path, &[text.as_bytes()])
 }
 
 /// Within a part of the published number.

@@ -64,6 +64,12 @@ pub fn compare<W: Space, N: Space>(pass: Pass, name: &str, seen: &Seen<W, N>) ->
     // What a sum hands back is of the size of that sum's rounding.
     let scale = carried.map(|sum| numbers(seen.truth, sum.name()).iter().flat_map(|(_, x)| x.clone()).fold(0.0, f64::max));
     let step = seen.before.clock.step.f64();
+    // Contact's rate stands beside that of the body itself.
+    let scale = scale.or_else(|| {
+        let own = &seen.truth.bodies[0];
+        let most = seen.truth.columns.contact_rate.iter().fold(0.0, |most, rate| rate.f64().max(most));
+        (field(name) == Some(Field::ContactRate)).then(|| most.max((own.sound_speed / own.smoothing_length).f64().powi(2)))
+    });
     let scale_of = |label: &str| if label == ELAPSED && step > 0.0 { Some(step) } else { scale };
     let (truth, twin, gpu) = (numbers(seen.truth, name), numbers(seen.twin, name), numbers(seen.gpu, name));
     for ((truth, twin), gpu) in truth.into_iter().zip(twin).zip(gpu) {

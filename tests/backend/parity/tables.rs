@@ -326,6 +326,7 @@ fn fill<S: Space<Real = f32>>(state: &mut State<S>, field: Field, case: &Case, r
             DisplacementGradient | InelasticStrain | EquilibriumInelasticStrain => 0.1 * random.signed(),
             Temperature => 1.0 + 0.1 * random.unit(),
             EquivalentPlasticStrain | EquilibriumPlasticStrain => 0.1 * random.unit(),
+            ContactRate => rate * rate * random.unit(),
             ContactEnergy | HourglassEnergy => 1e-3 * speed * speed * random.unit(),
             FacetReferencePosition | FacetReferenceNormal | FacetArea => f64::from(old),
             FacetDisplacement | ObstacleDisplacement => 0.01 * spacing * random.signed(),

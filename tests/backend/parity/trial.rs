@@ -151,6 +151,7 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
             *group = Clock { running: 1, fault: 0, step: stepped * (1.3 - 0.2 * k as f32), ..*group };
         }
         usual.columns.velocity.iter_mut().for_each(|v| *v = *v * 0.1);
+        usual.columns.contact_rate.iter_mut().for_each(|rate| *rate = 0.0);
         let touching = !usual.columns.listed_displacement.is_empty();
         if touching {
             usual.columns.listed_displacement = usual.columns.displacement.clone();
@@ -167,6 +168,12 @@ impl<W: Space<Real = f64>, N: Space<Real = f32>> Trial<W, N> {
             let mut moved = usual.clone();
             moved.columns.listed_displacement[500][0] += moved.params.slack;
             assert_eq!(end(moved).rebuild, 1);
+        }
+        if !usual.columns.contact_rate.is_empty() {
+            let mut stiff = usual.clone();
+            stiff.columns.contact_rate[500] = (stiff.params.cfl / (0.5 * stepped)).powi(2);
+            let halved = end(stiff).step as f32;
+            assert!((halved / (0.5 * stepped) - 1.0).abs() < 1e-5, "{halved} for half of {stepped}");
         }
         let mut over = usual.clone();
         over.group_clocks[0].running = 0;
