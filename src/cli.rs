@@ -245,7 +245,7 @@ fn run_scene(args: &RunArgs) -> Result<i32, Stop> {
 fn announce(scene: &Scene, options: &Options) {
     if !options.quiet {
         say(&format!("{}: {}", scene.label(), scene.file.title));
-        scene.grouping().iter().chain(&scene.mass_lines()).for_each(|line| say(line));
+        scene.grouping().iter().chain(&scene.mass_lines()).chain(&scene.wave_lines()).for_each(|line| say(line));
         if let Some(cost) = scene.cost() {
             say(&cost);
         }

@@ -346,8 +346,8 @@ fn expectations_pass_or_miss_or_state_how_they_are_wrong() {
     let said = check(EXPECTED, &["--ci"]);
     assert!(said.code == Some(0) && said.out.ends_with("0 expectations: 0 missed\n"), "{said:?}");
     // A run that breaks off is a line of the table, not the end of it.
-    let said = check(EXPECTED, &[&BREAKS[..], &["--variant", "slow"]].concat());
-    assert_eq!(said.code, Some(1), "{said:?}");
+    let said = sandbox.lithosph(&[&["check", "s.toml", "--backend", "cpu", "--variant", "slow"], &BREAKS[..]].concat());
+    assert!(said.code == Some(1) && said.err.contains("warning: --set time.step: the fixed time.step of 5 T"), "{said:?}");
     assert!(said.out.contains("try time.") && said.out.ends_with("1 expectations: 1 missed\n"), "{said:?}");
 }
 
@@ -459,8 +459,11 @@ fn a_run_that_goes_wrong_says_why_and_keeps_what_it_has() {
     let sandbox = Sandbox::new("wrong");
     let said = sandbox.lithosph(&[&["run", "s.toml", "--backend", "cpu"], &BREAKS[..]].concat());
     assert_eq!(said.code, Some(1), "{said:?}");
-    one_line(&said.err, "wrong");
-    assert!(said.err.contains("step ") && said.err.contains("try time."), "{said:?}");
+    // Before the run it is warned of its step.
+    let (warning, reason) = said.err.split_once('\n').unwrap();
+    assert!(warning.starts_with("lithosph: warning: --set time.step: the fixed time.step of 5 T"), "{said:?}");
+    one_line(reason, "wrong");
+    assert!(reason.contains("step ") && reason.contains("try time."), "{said:?}");
     assert!(said.err.contains("written so far is in out/s"), "{said:?}");
     assert!(!csv::read(&sandbox.path("out/s/series.csv")).unwrap().1.is_empty());
     assert!(!sandbox.exists("out/s/summary.json"));
@@ -471,7 +474,7 @@ fn a_run_that_goes_wrong_says_why_and_keeps_what_it_has() {
 #[test]
 fn an_interrupt_ends_with_130_and_readable_output() {
     let sandbox = Sandbox::new("interrupt");
-    let child = sandbox.command(&["run", "s.toml", "--backend", "cpu", "--set", "duration=1e6"]).spawn().unwrap();
+    let child = sandbox.command(&["run", "s.toml", "--backend", "cpu", "--set", "duration=1e5"]).spawn().unwrap();
     let rows = || csv::read(&sandbox.path("out/s/series.csv")).map_or(0, |(_, rows)| rows.len());
     until("there are rows", || rows() > 3);
     signal(&child, libc::SIGINT);

@@ -43,12 +43,34 @@ pub fn of(member: &Scene) -> Option<Bound> {
     if !has_frequencies(method) || stable == 0.0 {
         return Some(Bound { frequencies: Vec::new(), stable: 0.0 });
     }
-    let frequencies = match member.dimension() {
+    Some(Bound { frequencies: of_bodies(member), stable })
+}
+
+/// The longest time step that a scene bears at rest, and what it is the limit of: where the scene fixes its steps, nothing else
+/// keeps them below it. None where steps are found for equilibrium.
+pub fn longest_step(scene: &Scene) -> Option<(f64, &'static str)> {
+    let of_member = |member: &Scene| {
+        let method = &member.method;
+        let stable = step::longest_step(method, method.integrator);
+        if has_frequencies(method) && stable > 0.0 {
+            let highest = of_bodies(member).into_iter().fold(0.0, f64::max);
+            return (stable / highest, "the integrator bears at the highest frequency of the bodies at rest");
+        }
+        let rate = |body: &crate::scene::SceneBody| body.material.sound_speed() / body.smoothing_length;
+        (1.0 / member.bodies.iter().map(rate).fold(0.0, f64::max), "sound takes through a smoothing length")
+    };
+    if scene.file.quasi_static.is_some() {
+        return None;
+    }
+    scene.groups().iter().map(of_member).min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+fn of_bodies(member: &Scene) -> Vec<f64> {
+    match member.dimension() {
         1 => frequencies(&mut member.state::<Line<f64>>(false)),
         2 => frequencies(&mut member.state::<Plane<f64>>(false)),
         _ => frequencies(&mut member.state::<Solid<f64>>(false)),
-    };
-    Some(Bound { frequencies, stable })
+    }
 }
 
 impl Bound {

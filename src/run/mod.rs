@@ -72,16 +72,21 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
     if !options.dry {
         files::refuse_existing(scene, options).map_err(Stop::Refused)?;
     }
+    let warnings = warn::of(scene);
     // The backend is opened before the folder is made, so that a run without a backend leaves no folder behind.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
-    run_on(scene, options, backend)
+    begin(scene, options, backend, warnings)
 }
 
 /// The same on a backend that is open and at the scene's start.
 pub fn run_on(scene: &Scene, options: &Options, backend: Box<dyn Backend>) -> Result<Finished, Stop> {
-    warn::say(scene);
+    begin(scene, options, backend, scene.warnings.clone())
+}
+
+fn begin(scene: &Scene, options: &Options, backend: Box<dyn Backend>, warnings: Vec<String>) -> Result<Finished, Stop> {
+    warn::say(&warnings);
     let files = if options.dry { None } else { Some(Files::create(scene, options)?) };
-    Run::new(scene, options, backend, files).go()
+    Run::new(scene, options, backend, files, warnings).go()
 }
 
 /// Goes on from the last good state in a run's folder, or from the start where the run had not come to its first, to the same
@@ -97,25 +102,27 @@ pub fn resume(scene: &Scene, options: &Options, folder: PathBuf) -> Result<Optio
     let (scene, label) = (&scene, scene.label());
     let damage: Vec<String> = std::mem::take(&mut known.damage).into_iter().map(|what| format!("{label}: {what}")).collect();
     let Some(saved) = &mut known.saved else {
+        let warnings = warn::of(scene);
         let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
-        warn::say(scene);
+        warn::say(&warnings);
         let (files, _) = Files::reopen(options, folder, known)?;
-        return Run::new(scene, options, backend, Some(files)).go().map(Some);
+        return Run::new(scene, options, backend, Some(files), warnings).go().map(Some);
     };
     saved.check_scene(scene).map_err(Stop::Refused)?;
     damage.iter().for_each(|sentence| warn::say_one(sentence));
     if saved.event >= Schedule::new(scene).events().len() && known.finished {
         return Ok(None);
     }
+    let warnings = warn::of(scene);
     let mut backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     saved.check_device(&*backend).map_err(Stop::Refused)?;
     backend.load(&std::mem::take(&mut saved.groups)).map_err(Stop::Refused)?;
     backend.set_clocks(&saved.story.clocks).map_err(Stop::Failed)?;
-    warn::say(scene);
+    warn::say(&warnings);
     let (event, time, steps) = (saved.event, saved.time, saved.steps);
     let (watch, story) = (std::mem::take(&mut saved.watch), saved.story.clone());
     let (files, table) = Files::reopen(options, folder, known)?;
-    let mut run = Run::new(scene, options, backend, Some(files));
+    let mut run = Run::new(scene, options, backend, Some(files), warnings);
     (run.event, run.time, run.steps, run.table) = (event, time, steps, table);
     (run.lists, run.lengths) = (story.lists, story.lengths);
     run.energy.load(&watch);
@@ -220,7 +227,7 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>) -> Self {
+    fn new(scene: &'a Scene, options: &Options, backend: Box<dyn Backend>, files: Option<Files>, warnings: Vec<String>) -> Self {
         let observers = observers(scene);
         let mut fields = fields_read(&observers, scene);
         if (Meetings::possible(scene) || meetings::may_cross(scene)) && !fields.contains(&Field::Displacement) {
@@ -256,7 +263,7 @@ impl<'a> Run<'a> {
             energy: Watch::new(scene, options.energy),
             within: options.within,
             balance: Balance::default(),
-            warnings: scene.warnings.clone(),
+            warnings,
         }
     }
 

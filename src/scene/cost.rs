@@ -44,7 +44,7 @@ impl Scene {
     }
 
     /// Steps at the length that the first one has, that of the group whose step is the shortest.
-    fn likely_steps(&self) -> f64 {
+    pub(super) fn likely_steps(&self) -> f64 {
         self.groups().iter().map(Scene::likely_steps_alone).fold(0.0, f64::max)
     }
 

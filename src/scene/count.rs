@@ -95,7 +95,7 @@ fn columns(file: &File, bodies: &[SceneBody], group: &Group, refuse: &Refuse) ->
     let own: Vec<SceneBody> = group.bodies.iter().map(|&k| bodies[k].clone()).collect();
     let formulation = &group.formulation;
     let named = Refuse { formulation: group.name.as_deref(), ..*refuse };
-    let mut method = method(&Scene::unpacked(group.view(file), own), &named)?;
+    let mut method = method(&Scene::unpacked(group.view(file), own, refuse), &named)?;
     (method.constraints, method.obstacles) = (!file.boundary.is_empty(), !file.obstacle.is_empty());
     method.compensated = true;
     let follows = method.list_follows();
@@ -109,13 +109,14 @@ fn columns(file: &File, bodies: &[SceneBody], group: &Group, refuse: &Refuse) ->
 
 impl Scene {
     /// A scene whose bodies hold no particles yet: enough to say what its method is.
-    fn unpacked(file: File, bodies: Vec<SceneBody>) -> Self {
+    fn unpacked(file: File, bodies: Vec<SceneBody>, refuse: &Refuse) -> Self {
         Self {
             name: String::new(),
             variant: None,
             method: Method { dimension: file.dimension, ..Method::default() },
             file,
             text: String::new(),
+            source: refuse.source.clone(),
             parts: Vec::new(),
             first_number: 0,
             part_of: None,

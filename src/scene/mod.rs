@@ -41,6 +41,7 @@ mod surfaces;
 mod ties;
 mod volume;
 mod warn;
+mod waves;
 pub mod words;
 
 pub use mass::BodyMass;

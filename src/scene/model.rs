@@ -2,6 +2,7 @@
 
 use super::members::{Particle, Plane, SceneBody, SceneConstraint, SceneFacet, SceneObstacle};
 use super::near::Near;
+use super::read::Source;
 use super::{copies, file, shape};
 use crate::fields::Field;
 use crate::method::Method;
@@ -20,6 +21,8 @@ pub struct Scene {
     pub file: file::File,
     /// What is stored as `run.toml`.
     pub text: String,
+    /// Where each value was typed.
+    pub source: Source,
     /// The method of all bodies; or, where the scene has [`Self::parts`], that of what acts between them.
     pub method: Method,
     /// The groups of bodies that step apart from each other, each as a scene of its own; empty where all bodies are one group.
@@ -88,12 +91,18 @@ impl Scene {
     /// Refuses a scene whose bodies differ in their formulation, where only one is understood.
     ///
     /// # Errors
-    /// One sentence that begins with the scene.
+    /// One sentence that begins with the place of the formulations.
     pub fn one_formulation(&self, what: &str) -> Result<(), String> {
         if self.parts.is_empty() && !self.method.body_options {
             return Ok(());
         }
-        Err(format!("{}: {what} takes a scene whose bodies have one formulation", self.label()))
+        let place = self.place(&["formulation"]);
+        Err(format!("{place}: {what} takes a scene whose bodies have one formulation, and this one has several"))
+    }
+
+    /// "scenes/rings.toml:12" of the value at a path of keys and indices, as they were typed: see [`Source::place`].
+    pub fn place(&self, path: &[&str]) -> String {
+        self.source.place(path)
     }
 
     /// Names of the units of length, mass and time.

@@ -4,6 +4,7 @@ use super::copies::{expand, named, pairs};
 use super::corrected_kernel;
 use super::file::{ArtificialSpacing, EnergyWatch, File, FormulationTable, Viscosity};
 use super::groups::{Group, across, check_parted, groups, of_body};
+use super::interval::ROUNDING;
 use super::material::Material;
 use super::packing::fill;
 use super::prescribed::held;
@@ -71,6 +72,7 @@ pub(crate) fn resolve(name: String, read: Read) -> Result<Scene, String> {
         variant,
         file,
         text,
+        source: source.clone(),
         method: Method::default(),
         parts: Vec::new(),
         first_number: 0,
@@ -154,6 +156,12 @@ fn numbers(file: &File, refuse: &Refuse) -> Result<(), String> {
     one(file.time.cfl, &["time", "cfl"], "cfl")?;
     if let Some(step) = file.time.step {
         one(step, &["time", "step"], "step")?;
+        refuse.unless(step <= file.duration * (1.0 + ROUNDING), &["time", "step"], || {
+            format!(
+                "a time.step of {step} is longer than the whole run, whose duration is {}: leave it out, and cfl finds one",
+                file.duration
+            )
+        })?;
     }
     if let Some(drift) = file.watch.energy_drift {
         let path = ["watch", "energy_drift"];

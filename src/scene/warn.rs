@@ -15,7 +15,8 @@ pub(super) fn warnings(scene: &Scene, thin: Vec<(usize, String)>, refuse: &Refus
     let of_bodies = [scene.mass_warnings(), thin, scene.held_warnings()].concat();
     let of_bodies = of_bodies.into_iter().map(|(body, line)| refuse.at(&["body", &body.to_string(), "shape"], line));
     let stepped = super::surface::warnings(scene, refuse);
-    courses(scene, refuse).into_iter().chain(tension(scene, refuse)).chain(of_bodies).chain(stepped).collect()
+    let waves = scene.wave_warnings(refuse);
+    courses(scene, refuse).into_iter().chain(waves).chain(tension(scene, refuse)).chain(of_bodies).chain(stepped).collect()
 }
 
 /// Eulerian solids that something strains, with nothing against the tensile instability. A scene that means it types an epsilon

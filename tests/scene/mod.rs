@@ -1,7 +1,8 @@
-//! What a scene says of its bodies before it runs: masses, thin parts, held ends, and bodies with nothing between them.
+//! What a scene says of its bodies before it runs: masses, thin parts, held ends, times and speeds, and bodies with nothing between them.
 
 mod held;
 mod layers;
 mod mass;
 mod slips;
 mod strangers;
+mod waves;
