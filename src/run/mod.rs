@@ -72,7 +72,9 @@ pub fn run(scene: &Scene, options: &Options) -> Result<Finished, Stop> {
     if !options.dry {
         files::refuse_existing(scene, options).map_err(Stop::Refused)?;
     }
-    let warnings = warn::of(scene);
+    // A study whose runs keep nothing and may gain energy looks for such limits itself.
+    let sought = options.dry && options.energy == Options::UNWATCHED;
+    let warnings = if sought { scene.warnings.clone() } else { warn::of(scene) };
     // The backend is opened before the folder is made, so that a run without a backend leaves no folder behind.
     let backend = open(scene, &options.choice).map_err(Stop::Refused)?;
     begin(scene, options, backend, warnings)
